@@ -49,7 +49,7 @@ Rows rows_with(DepthArguments& a, const char* depth, const char* model, const Re
       "One picture and its depth",
       {row("--depth", text(a.file), depth), row("--depth-model", text(a.model), model, {}, {}, {"--depth"}),
        row("--depth-is", choice(a.kind, depth_kinds),
-           "What the depth stands for: inverse, nearer is brighter; metric, a length, farther is larger",
+           "Meaning of the depth values: inverse, nearer is brighter; metric, a length, farther is larger",
            {std::move(no_map), by_network}),
        row("--strength", share(a.strength, {0.1, 30}, "3%"),
            "Disparity from the farthest point to the nearest, in % of the width; 3% is comfortable on any screen",

@@ -49,12 +49,13 @@ Row framing_row(ViewFraming& framing, std::string_view frame, Reasons unless) {
   const auto parse = [](const std::string& option, const std::string& words) {
     return parse_view_framing(words, option);
   };
-  return row("--framing", parsed(framing, parse, "fit|fill|X,Y,ZOOM", "fill"),
-             fmt::format("How pictures of another shape are shown {}: fit, whole; fill, cut off at two sides; or the "
-                         "place X,Y, 0 to 1 from the upper left corner, that comes to the middle, ZOOM times as large "
-                         "as with fill",
-                         frame),
-             std::move(unless));
+  return row(
+      "--framing", parsed(framing, parse, "fit|fill|X,Y,ZOOM", "fill"),
+      fmt::format(
+          "Framing of pictures of another shape {}: fit shows them whole; fill cuts off two sides; X,Y,ZOOM puts the "
+          "place X,Y (0 to 1, from the upper left corner) in the middle, ZOOM times as large as with fill",
+          frame),
+      std::move(unless));
 }
 
 Rows film_display_rows(DisplayArguments& a, const Reasons& unless_display) {

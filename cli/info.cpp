@@ -408,7 +408,7 @@ Rows info_rows(InfoArguments& a) {
           "Picture, disparity (.pfm, .exr, or any with --scale), film, numbered pictures (frame_%04d.png), painting "
           "(.wst), particles, model or slices",
           {when([&a] { return a.devices; }, "with --devices")}),
-      row("--devices", flag(a.devices), "List what can compute: the values of --device"),
+      row("--devices", flag(a.devices), "List the devices that can compute: the values of --device"),
       row("--scale", number(a.scale, {1e-9, 1e9}), "Read the picture as disparities: value / SCALE pixels",
           {only({DescribedKind::disparity}, "it works on pictures")}),
       row("--type", text(a.type), "Particle type of a GADGET snapshot: gas, halo, disk, bulge, stars, bndry or 0 to 5",

@@ -335,7 +335,7 @@ Report run_measure_film(const MeasureFilmArguments& arguments, const Session& se
 Rows measure_film_rows(MeasureFilmArguments& a) {
   return {row("FILMS", required(texts(a.films)),
               "Films, numbered pictures (left_%04d.png), folders of them, or one film per eye: LEFT,RIGHT"),
-          row("--against", required(text(a.source)), "Film that they were made from, in the same forms"),
+          row("--against", required(text(a.source)), "Source from which the films were made, in the same forms"),
           row("--truth", text(a.truth),
               "Folder from 'synth film' with the exact flow and disparities of the source, whose frames count from 0;\n"
               "by default they are estimated from the source"),

@@ -195,7 +195,7 @@ Rows measure_stereo_rows(MeasureStereoArguments& a) {
   return join(
       {{row("LEFT", required(text(a.left)), "Left picture, stylised"),
         row("RIGHT", required(text(a.right)), "Right picture, of the same size"),
-        row("--photographs", pair, "Pair of photographs that they were made from, measured for comparison"),
+        row("--photographs", pair, "Pair of photographs from which the pictures were made, measured for comparison"),
         row("--disparity", text(a.disparity),
             "True disparity of the left view: PNG, PFM or EXR as FILE[:SCALE], value / SCALE = pixels; by default the\n"
             "photographs are matched"),

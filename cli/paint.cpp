@@ -412,12 +412,14 @@ Rows model_rows(PaintArguments& a, const Reason& printing) {
        row("--up", choice(seen.model.choice.up, axes),
            "Axis of the model that is up; auto: y in OBJ and glTF, z in PLY and STL"),
        row("--crease", number(seen.model.choice.crease_deg, crease_range_deg),
-           "Where a model has no normals, triangles that meet at a larger angle, in degrees, have an edge between "
-           "them"),
-       row("--model-texture", of_type("FILE", text(seen.model.choice.texture)), "Picture for a model that names none"),
+           "For models without normals: triangles that meet at a larger angle than this, in degrees, have an edge "
+           "between them"),
+       row("--model-texture", of_type("FILE", text(seen.model.choice.texture)),
+           "Texture picture for a model that names none"),
        row("--model-background", parsed(seen.model.background, parse_colour, "COLOUR", "#3a3e44"),
            "Colour around the model")},
-      {printing, when([&a] { return !is_model_file(a); }, "on what is no model; it works on models of triangles")});
+      {printing,
+       when([&a] { return !is_model_file(a); }, "on files other than models; it works on models of triangles")});
 }
 
 Rows paint_rows(PaintArguments& a) {
@@ -471,9 +473,8 @@ Rows paint_rows(PaintArguments& a) {
       row("--right-disparity", text(a.right_disparity), "Disparity of the right view, in the same form",
           {printing, again, one_view, several, no_disparity}),
       row("--detail-map", text(a.detail_map),
-          "Picture that says how finely each place of the left photograph is painted, stretched over it: white is "
-          "fine, "
-          "mid-grey as --fineness says; without it, faces are finer than the rest",
+          "Picture, stretched over the left photograph, that says how finely each place is painted: white is fine, "
+          "mid-grey is as --fineness says; by default, faces are painted more finely than the rest",
           {printing, again, several}),
       row("--zero-parallax", zero_parallax(a.painting.zero_parallax.disparity_px),
           "Disparity in pixels that lies on the screen plane, or 'nearest'", {printing, nearest}),
@@ -481,8 +482,8 @@ Rows paint_rows(PaintArguments& a) {
           "Pixel X,Y of the left photograph that lies on the screen plane", {printing, again, several}, {},
           {"--zero-parallax"}),
       row("--depth-budget", depth_budget(a.painting.depth_budget),
-          "Depth of side_by_side and anaglyph from the farthest point to the nearest, at most, in % of the width; "
-          "'full' for that of the photographs. The pictures are drawn for eyes that are nearer together",
+          "Largest depth of side_by_side and anaglyph, from the farthest point to the nearest, in % of the width; they "
+          "are drawn for eyes that are nearer together. 'full' keeps the depth of the photographs",
           {printing, display}),
       row("--depth-mapping", depth_regions(a.depth_mapping),
           "Depth at several points, SHARE:MM,SHARE:MM,...: SHARE is from 0, the nearest disparity, to 1, the farthest, "
@@ -503,14 +504,13 @@ Rows paint_rows(PaintArguments& a) {
       framing_row(a.display.framing, "on the display",
                   {printing, when([&a] { return a.display.name.empty(); }, "without --display")})};
   const Rows drawing{
-      device_row(a.painting.device, "What draws the planned pictures", {printing}),
+      device_row(a.painting.device, "Device that draws the planned pictures", {printing}),
       row("--report", flag(a.measure), "Measure the consistency of the two painted views", {printing, again, display}),
       row("--svg", flag(a.results.svg), "Also write left.svg and right.svg, the marks as vector graphics",
           {printing, display}),
       row("--keep-location", flag(a.keep_location),
-          "Also write where the photograph was taken into the results; the title, and what its camera noted of it "
-          "else, "
-          "go with it",
+          "Also write the place where the photograph was taken into the results; its title and the other notes of its "
+          "camera are always written",
           {printing, again}),
       row("--html", flag(a.results.html), "Also write index.html, which shows the pictures",
           {printing, again, display}),

@@ -21,9 +21,9 @@ namespace fs = std::filesystem;
 void refuse_output_within(const std::string& folder, const std::string& output) {
   const fs::path way = fs::weakly_canonical(output).lexically_relative(fs::canonical(folder));
   if (!way.empty() && *way.begin() != "..")
-    throw Error(
-        ErrorKind::wrong_usage,
-        fmt::format("{}: lies in {}, whose photographs are read; expected an output (-o) outside", output, folder));
+    throw Error(ErrorKind::wrong_usage,
+                fmt::format("{}: lies in {}, the folder of the photographs; expected an output (-o) outside it", output,
+                            folder));
 }
 
 FolderPart folder_part(const std::string& option, const std::string& words) {
@@ -63,13 +63,14 @@ Rows folder_rows(FolderArguments& a, const std::function<bool()>& is_folder, std
       {row("--dry-run", flag(a.dry_run),
            fmt::format("Show which files of a folder are photographs, and why; nothing is {}", done), reasons),
        row("--skip-existing", flag(a.skip_existing),
-           "Leave out photographs of a folder whose results are there, to continue a run", reasons),
+           "Skip photographs of a folder whose results exist already, to continue a run", reasons),
        row("--part", parsed(a.part, folder_part, "NUMBER/PARTS"),
            "Take only this part of a folder's photographs, which are dealt out by name: 3/16 on the third of 16 "
            "machines",
            reasons),
        row("--pairs", text(a.pairs),
-           "Pairs of a folder that names do not tell: a file with LEFT, a tab and RIGHT a line, relative to it",
+           "File that lists pairs that cannot be told by their names: LEFT, a tab and RIGHT on each line, relative to "
+           "this file",
            reasons),
        row("--name", text(a.name),
            fmt::format("Names of the results in the output: {{stem}}, the path of the photograph in the folder; "
@@ -124,7 +125,7 @@ PhotographList pairs_in_folder(const std::string& folder, const StereoArguments&
                                const FolderArguments& arguments, const FolderOutput& output, const Session& session) {
   if (!photographs.right.empty())
     throw Error(ErrorKind::bad_input,
-                fmt::format("{}: is a folder, beside which no other photograph is expected, but {} is given", folder,
+                fmt::format("{}: is a folder, expected no other photograph beside it, but {} is given", folder,
                             photographs.right));
   PhotographList list = photographs_in_folder(folder, photographs, arguments, output, session);
   std::erase_if(list.jobs, [&](const PhotographJob& job) {

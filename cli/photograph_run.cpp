@@ -151,9 +151,9 @@ class Workers {
       if (stopped_) throw Error(ErrorKind::interrupted, "interrupted");
       const std::lock_guard hold(mutex_);
       report(session_.progress,
-             at_once_ == 1 ? fmt::format("photograph {} of {}, {}: {}", number + 1, jobs_.size(), name, step)
-                           : fmt::format("photograph {} of {} is the last of {} that are worked on", next_number(),
-                                         jobs_.size(), at_once_),
+             at_once_ == 1
+                 ? fmt::format("photograph {} of {}, {}: {}", number + 1, jobs_.size(), name, step)
+                 : fmt::format("photographs up to {} of {}, {} at a time", next_number(), jobs_.size(), at_once_),
              static_cast<double>(over_) / static_cast<double>(jobs_.size()));
     };
     one.clear_progress = [] {};

@@ -56,19 +56,19 @@ Rows print_rows(PrintArguments& a, const Reasons& unless_framed, Reasons unless_
   return under(
       "Prints and shows",
       {row("--crop", parsed(a.frame.crop, crop, "WIDTHxHEIGHT+X+Y"),
-           "Part of each view that is taken, in pixels; WIDTHxHEIGHT is the middle, and 4:3 the largest part of this "
+           "Part of each view that is kept, in pixels; WIDTHxHEIGHT keeps the middle, 4:3 the largest part of this "
            "shape"),
        row("--border", parsed(a.frame.border, parse_border, "WIDTH[,COLOUR]"),
-           "Border around each view, in pixels or in % of its longer side, white or as 40,black or 3%,F6F0E2",
+           "Border around each view, in pixels or in % of its longer side; white, or with a colour: 40,black or "
+           "3%,F6F0E2",
            std::move(unless_bordered)),
        row("--caption", parsed(a.caption, parse_caption, "TEXT"),
            "Text below each view; {title} stands for the title of the photograph, or else the name of its file, and "
            "{date} for the day when it was taken",
            unless_framed),
        row("--keep-location", flag(a.keep_location),
-           "Also write where the photograph was taken into the files; what its camera noted of it else goes with it, "
-           "in "
-           "JPEG, MPO, JPS and PNG")});
+           "Also write the place where the photograph was taken into the files; the other notes of its camera are "
+           "always written, in JPEG, MPO, JPS and PNG")});
 }
 
 PrintFrame print_frame_from(const PrintArguments& arguments, const PictureNotes& notes,

@@ -143,11 +143,9 @@ void share_with_ranks(const CLI::App& program, Session& session) {
   if (!launch || launch->count == 1) return;
   const std::string command = program.get_subcommands().front()->get_name();
   if (command != "render" && command != "rotoscope")
-    throw Error(
-        ErrorKind::wrong_usage,
-        fmt::format(
-            "mpirun started {} processes, but '{}' works in one: only 'render' and 'rotoscope' share their work",
-            launch->count, command));
+    throw Error(ErrorKind::wrong_usage, fmt::format("mpirun started {} processes, but '{}' works in one process; only "
+                                                    "'render' and 'rotoscope' share their work",
+                                                    launch->count, command));
   session.ranks = start_ranks(*launch);
 }
 

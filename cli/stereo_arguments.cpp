@@ -117,8 +117,7 @@ Row rectify_row(RectifyPolicy& policy, Reasons unless) {
   static constexpr std::array<Choice<RectifyPolicy>, 3> policies{
       {{"auto", RectifyPolicy::automatic}, {"never", RectifyPolicy::never}, {"always", RectifyPolicy::always}}};
   return row("--rectify", choice(policy, policies),
-             "Whether the views are rectified first, as 'wheatstone rectify' does; auto: where their rows differ",
-             std::move(unless));
+             "Rectify the views first, as 'wheatstone rectify' does; auto: if their rows differ", std::move(unless));
 }
 
 Rows pair_rows(StereoArguments& arguments) {
@@ -183,7 +182,8 @@ void tell_of_layout(const NamedPair& pair, const Session& session) {
 ReadPhotograph read_photographs(const StereoArguments& arguments, bool disparity_is_given, const Session& session) {
   if (disparity_is_given && arguments.rectify == RectifyPolicy::always)
     throw Error(ErrorKind::wrong_usage,
-                "--rectify changes the pictures, but --disparity belongs to them as they are: choose one");
+                "--rectify changes the pictures, but --disparity belongs to the unchanged pictures; expected only one "
+                "of the two");
   report(session.progress, "reading", 0);
   NamedPair read = read_named_pair(arguments);
   const PictureSize whole = reduce(read.pictures, arguments.max_size);

@@ -35,8 +35,9 @@ Report run_synth_model(const SynthModelArguments& arguments, const Session& sess
 
 Rows synth_model_rows(SynthModelArguments& a) {
   return {
-      row("-o,--output", output_name(a.file), "OBJ file; its materials and textures get its name, too"),
-      row("--shape", choice(a.shape, shapes), "What is made: a knot, boxes in rows, a sphere with a map, or a tree"),
+      row("-o,--output", output_name(a.file), "OBJ file; the files of its materials and textures are named after it"),
+      row("--shape", choice(a.shape, shapes),
+          "Shape of the model: a knot, boxes in rows, a sphere with a map, or a tree"),
       row("--triangles", number(a.triangles, {100, 2e7}), "Number of triangles, about")};
 }
 

@@ -72,8 +72,8 @@ Rows synth_universe_rows(SynthUniverseArguments& a) {
           row("--redshift", number(universe.redshift, {0, 1000}), "Redshift; 0 is today"),
           row("--box", number(universe.box_mpc_h, {1, 10'000}), "Side of the periodic box, in Mpc/h"),
           row("--times", parsed(a.times, parse_times),
-              "Scale factors A1,A2,..., of which 1 is today: a series of snapshots with IDs and velocities, whose "
-              "numbers from 0 on stand in --output, as universe_%03d.hdf5",
+              "Scale factors A1,A2,... of a series of snapshots with IDs and velocities; 1 is today. --output has a "
+              "place for their numbers, which begin at 0: universe_%03d.hdf5",
               {}, {}, {"--redshift"})};
 }
 

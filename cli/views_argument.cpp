@@ -135,10 +135,11 @@ Reason only(const ViewsArguments& arguments, std::vector<ViewsKind> kinds, const
 Painting read_painting_for_views(const std::string& file) {
   Painting painting = read_painting(file);
   if (painting.surfaces.seen.empty())
-    throw Error(ErrorKind::bad_input,
-                fmt::format("{}: has no surfaces, which more views than two need (it is of version 1 or 2, or each eye "
-                            "was painted alone); paint its photographs again",
-                            file));
+    throw Error(
+        ErrorKind::bad_input,
+        fmt::format("{}: has no surfaces, so it cannot show more than two views (it is of version 1 or 2, or each eye "
+                    "was painted alone); paint its photographs again",
+                    file));
   return painting;
 }
 
@@ -207,8 +208,8 @@ Rows views_rows(ViewsArguments& a, const std::function<bool()>& makes_views) {
           row("--views", without_default(number(a.views, view_count_range)),
               "Number of views to make from a photograph, a painting or slices", {count}),
           row("--span", number(a.span, view_span_range),
-              "Distance from the first view to the last, in eye separations, where views are made; of a photograph "
-              "chosen from its depth by default",
+              "Distance from the first view to the last, in eye separations, of views that are made; by default, a "
+              "photograph's is chosen from its depth",
               {made})};
 }
 
@@ -217,7 +218,7 @@ Reason unless_painting(const ViewsArguments& arguments) {
 }
 
 Row views_device_row(ViewsArguments& a) {
-  return device_row(a.device, "What draws the views of a painting", {unless_painting(a)});
+  return device_row(a.device, "Device that draws the views of a painting", {unless_painting(a)});
 }
 
 std::vector<fs::path> files_read(const ViewsArguments& arguments) {

@@ -118,7 +118,7 @@ Words words_of(std::string_view line) {
       begun = true;
     }
   }
-  if (quoted) throw Error(ErrorKind::wrong_usage, fmt::format("'{}' has a quote that is not closed", line));
+  if (quoted) throw Error(ErrorKind::wrong_usage, fmt::format("'{}' has an unclosed quote", line));
   if (begun) words.push_back(std::move(word));
   return words;
 }

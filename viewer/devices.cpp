@@ -26,7 +26,7 @@ const LookingWith& find_device(std::string_view name) {
   std::vector<std::string_view> names;
   for (const LookingWith& device : devices()) names.push_back(device.name);
   throw Error(ErrorKind::wrong_usage,
-              fmt::format("nobody looks with '{}', expected one of: {}", name, fmt::join(names, ", ")));
+              fmt::format("'{}' is no viewing device, expected one of: {}", name, fmt::join(names, ", ")));
 }
 
 }  // namespace wheatstone::viewer

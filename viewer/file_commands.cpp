@@ -43,7 +43,7 @@ void open_series(Viewer& viewer, const Words& /*words*/) {
   const Item* const item = open_item(viewer.session());
   const auto pattern = item == nullptr ? std::nullopt : series_pattern_of(item->front());
   if (!pattern || open_particles(viewer) == nullptr)
-    return viewer.tell("no snapshot is open that is one of several with numbered names", true);
+    return viewer.tell("no snapshot of a numbered series is open", true);
   open_files(viewer, {pattern->string()});
 }
 
@@ -196,7 +196,7 @@ constexpr Command film_table[] = {
     {"pause", "", "Film", "Pause", "", [](Viewer& v, const Words&) { v.pause_film(); }, {.is_for_scripts = true}},
     {"frame-step", "", "Film", "Next frame", ".", [](Viewer& v, const Words&) { v.step_film(1); }},
     {"frame-back", "", "Film", "Previous frame", ",", [](Viewer& v, const Words&) { v.step_film(-1); }},
-    {"seek", "SECONDS", "Film", "Go so many seconds on, or back where negative", "",
+    {"seek", "SECONDS", "Film", "Skip forward by so many seconds, or back if negative", "",
      [](Viewer& v, const Words& w) {
        v.seek_film(film_of(v).seconds + number_of(w[0], -longest_film_s, longest_film_s));
      }},
@@ -208,7 +208,7 @@ constexpr Command film_table[] = {
     {"film-painting",
      "on|off",
      "Film",
-     "Paint the frame at which the film stands",
+     "Paint the current frame of the film",
      "",
      set_film_painting,
      {.now = [](const Viewer& v) { return on_or_off(v.session().film && v.session().film->paints); },

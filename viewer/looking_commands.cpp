@@ -191,7 +191,7 @@ constexpr Command looking_table[] = {
      "",
      fill_screen,
      {.choices = screen_choices, .applies = [](const Viewer& v) { return v.session().screens > 1; }}},
-    {"zoom", "FACTOR", "View", "Zoom: screen pixels for one of the picture", "",
+    {"zoom", "FACTOR", "View", "Zoom: screen pixels for one picture pixel", "",
      [](Viewer& v, const Words& w) { state_of(v).framed.zoom = number_of(w[0], 1. / 64, 64); }},
     {"zoom-at", "FACTOR X Y", "View", "Zoom around a place on the screen", "", zoom_at},
     {"zoom-in",
@@ -263,7 +263,7 @@ void deepen_gaze(Viewer& viewer, const Words& words) {
   set_gaze_gains(viewer.session(),
                  {static_cast<float>(number_of(words[0], 0, most)), static_cast<float>(number_of(words[1], 0, most))});
   if (!can_bend(viewer.session().opened.content))
-    viewer.tell("only a painting of strokes or lines can have more depth where one looks");
+    viewer.tell("more depth at the gaze point needs a painting of strokes or lines");
 }
 
 std::vector<Choice> tracker_choices(const Viewer& /*viewer*/) {
@@ -275,7 +275,7 @@ std::string tracker_port(const Session& session) {
 }
 
 std::vector<Choice> gaze_choices(const Viewer& /*viewer*/) {
-  return {{"1 1", "As elsewhere"}, {"1.5 0.5", "Half as much again, and half of it elsewhere"}};
+  return {{"1 1", "The same depth everywhere"}, {"1.5 0.5", "1.5 times the depth there, half of it elsewhere"}};
 }
 
 std::string gaze_gains_told(const Viewer& viewer) {

@@ -79,7 +79,7 @@ void compare(Viewer& viewer, const Words& words) {
   const auto found = std::ranges::find(comparison_names, words[0]);
   if (found == comparison_names.end())
     throw Error(ErrorKind::wrong_usage,
-                fmt::format("'{}' is nothing to compare, expected painting, photograph, split or depth", words[0]));
+                fmt::format("'{}' cannot be compared, expected painting, photograph, split or depth", words[0]));
   state_of(viewer).comparison = static_cast<Comparison>(found - comparison_names.begin());
 }
 
@@ -91,10 +91,10 @@ std::vector<Choice> style_choices(const Viewer& /*viewer*/) {
 
 constexpr Command painting_table[] = {
     // name, arguments, menu, text, keys
-    {"finest-layer", "NUMBER", "Painting", "Finest layer of strokes that is shown, from 0, the coarsest", "",
+    {"finest-layer", "NUMBER", "Painting", "Finest layer of strokes that is shown; 0 is the coarsest", "",
      [](Viewer& v, const Words& w) { state_of(v).slicing.finest_layer = static_cast<int>(number_of(w[0], 0, 1000)); }},
     {"slice-depth", "SHARE%|DISPARITYpx,...|off", "Painting",
-     "Planes that cut the finest layer and those under it: strokes before a layer's plane are hidden", "",
+     "Slicing planes of the finest layer and of those under it: strokes before a layer's plane are hidden", "",
      set_slice_depth},
     {"slice-keep",
      "back|front",
@@ -201,7 +201,7 @@ std::vector<Choice> display_choices(const Viewer& /*viewer*/) {
 }
 
 std::vector<Choice> calibration_choices(const Viewer& /*viewer*/) {
-  return {{"bridge", "That of Looking Glass Bridge"}};
+  return {{"bridge", "Calibration of Looking Glass Bridge"}};
 }
 
 constexpr Command depth_table[] = {
@@ -218,7 +218,8 @@ constexpr Command depth_table[] = {
                 "{}", v.session().zero_parallax_target_px.value_or(v.session().state.adjustment.zero_parallax_px));
           },
       .range = {-100, 100, 1}}},
-    {"zero-parallax-at", "X Y", "Depth", "Bring what lies at a place onto the screen plane", "", zero_parallax_at},
+    {"zero-parallax-at", "X Y", "Depth", "Put the screen plane at the depth of a place in the picture", "",
+     zero_parallax_at},
     {"nearer", "", "Depth", "Bring the scene nearer", "Alt+Left, /",
      [](Viewer& v, const Words&) { step_zero_parallax(v, -1); }},
     {"farther", "", "Depth", "Move the scene farther away", "Alt+Right, *",
@@ -226,7 +227,7 @@ constexpr Command depth_table[] = {
     {"separation",
      "EYES",
      "Depth",
-     "Distance of the eyes: in those of the picture",
+     "Distance of the eyes: in eye separations of the picture",
      "",
      [](Viewer& v, const Words& w) { state_of(v).adjustment.separation = static_cast<float>(number_of(w[0], 0, 10)); },
      {.now = [](const Viewer& v) { return fmt::format("{}", v.session().state.adjustment.separation); },
@@ -331,7 +332,7 @@ void set_layers_apart(Viewer& viewer, const Words& words) {
 }
 
 std::vector<Choice> mapping_choices(const Viewer& /*viewer*/) {
-  return {{"comfortable", "All that is comfortable"}, {"reset", "As in the photographs"}};
+  return {{"comfortable", "All of the comfortable depth"}, {"reset", "As in the photographs"}};
 }
 
 constexpr float usual_angle_deg = 40;

@@ -119,8 +119,8 @@ constexpr Command particle_table[] = {
      "",
      [](Viewer& v, const Words& w) { state_of(v).orbit.zoom = static_cast<float>(number_of(w[0], 0.01, 1e6)); },
      {.now = [](const Viewer& v) { return fmt::format("{}", v.session().state.orbit.zoom); }, .range = {0.1, 20, 0.1}}},
-    {"look-at", "X Y Z", "Particles", "Point in the middle, around which the view turns", "", look_at},
-    {"look-at-place", "X Y", "Particles", "Look at what is seen at a place on the screen", "", look_at_place},
+    {"look-at", "X Y Z", "Particles", "Point at the centre of the view, around which it turns", "", look_at},
+    {"look-at-place", "X Y", "Particles", "Look at the particles at a place on the screen", "", look_at_place},
     {"exposure",
      "VALUE|auto",
      "Particles",
@@ -225,9 +225,9 @@ void set_brightness(Viewer& viewer, std::optional<float> ParticleLook::*limit, c
   ParticleLook look = state_of(viewer).look;
   look.*limit = word == "auto" ? std::nullopt : std::optional(static_cast<float>(number_of(word, -1e30, 1e30)));
   if (look.least && look.most && !(*look.least < *look.most))
-    throw Error(ErrorKind::wrong_usage, fmt::format("brightness begins at {} and ends at {}, expected it to end after "
-                                                    "it begins",
-                                                    *look.least, *look.most));
+    throw Error(ErrorKind::wrong_usage,
+                fmt::format("brightness begins at {} and ends at {}, expected the end above the beginning", *look.least,
+                            *look.most));
   if (look.stretch == Stretch::log && look.least && *look.least <= 0)
     throw Error(ErrorKind::wrong_usage, fmt::format("is {}, expected above 0 with stretch log", *look.least));
   state_of(viewer).look = look;

@@ -17,7 +17,7 @@ namespace {
 /// What the pointer does, which the table of commands does not know.
 constexpr std::array<std::array<const char*, 2>, 10> pointer_keys{
     {{"C, held", "The photograph"},
-     {"Click", "What lies there comes onto the screen plane"},
+     {"Click", "Put the screen plane at the depth of this place"},
      {"Double click", "Full screen"},
      {"Drag", "Move the picture, or turn particles"},
      {"Shift + drag", "Move particles"},

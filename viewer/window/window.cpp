@@ -356,7 +356,7 @@ bool Window::may_close() {
   const Session& session = viewer_.session();
   if (!options_.with_dialogs || !session.has_unsaved_work) return true;
   is_asking_ = true;
-  QMessageBox box(QMessageBox::Question, "Wheatstone", "What you have set is in no file yet.",
+  QMessageBox box(QMessageBox::Question, "Wheatstone", "Your changes are not saved in a file yet.",
                   QMessageBox::Save | QMessageBox::Discard | QMessageBox::Cancel, this);
   box.setInformativeText("Save it before the window closes?");
   const int answer = box.exec();
