@@ -111,9 +111,9 @@ Command match_command() {
   return make_command(
       "match", "Estimate disparity and occlusion of a stereo pair", match_command_rows, run_match,
       R"(Writes left_disparity and right_disparity, each in its own view, as .pfm in pixels and as .png with 16 bits, which can
-be edited and given back with paint --disparity; disparity.png to look at (near is red); confidence.png (white: found and confirmed, grey: doubtful, black: filled from
-its surroundings); and the occlusion masks (white: the other eye does not see it). Where the pair was rectified, left.png
-and right.png are the rectified pictures that they belong to.
+be edited and given back with paint --disparity; disparity.png to look at (near is red); confidence.png (white: found and
+confirmed, grey: doubtful, black: filled from its surroundings); and the occlusion masks (white: the other eye does not
+see it). Where the pair was rectified, left.png and right.png are the rectified pictures that they belong to.
 
 Example:
   wheatstone synth still -o still

@@ -48,13 +48,14 @@ ViewState parameters_of(ViewState state) {
   state.layers_apart_deg = as_new.layers_apart_deg;
   state.depth_around = as_new.depth_around;
   // A stroke of the hand is undone as a whole.
-  while (!state.touches.empty() && state.touches.back().is_another) state.touches.pop_back();
+  while (!state.touches.empty() && state.touches.back().goes_on) state.touches.pop_back();
   return state;
 }
 
 void go_back(Viewer& viewer, std::vector<ViewState>& from, std::vector<ViewState>& to) {
   if (from.empty()) return;
   Session& session = viewer.session();
+  session.retouch.begun_at_px.reset();
   const bool painted_anew = from.back().style != session.state.style || from.back().touches != session.state.touches;
   const ViewState now = session.state;
   session.state = from.back();

@@ -15,6 +15,7 @@
 #include "wheatstone/multiview/slice_stack.h"
 #include "wheatstone/progress.h"
 #include "wheatstone/stereo/reduced_pair.h"
+#include "wheatstone/stereo/retouch.h"
 #include "wheatstone/stereo/stereo_pair.h"
 
 namespace wheatstone::viewer {
@@ -25,6 +26,7 @@ struct Photograph {
   bool is_rectified = false;                  ///< the pictures are not as in the files
   std::optional<StereoGeometry> geometry;     ///< once it was found; as it was retouched
   std::optional<StereoGeometry> found;        ///< as it was before it was retouched by hand; none: it was not
+  std::vector<Touch> touches;                 ///< that `geometry` was retouched with
   std::optional<Image<std::uint8_t>> detail;  ///< as detail_of_faces, once a style wanted it
 };
 

@@ -166,11 +166,18 @@ std::optional<SeenPlace> seen_at(const Viewer& viewer, double x, double y) {
 }
 
 std::optional<SeenPlace> seen_in_left(const Viewer& viewer, double x, double y) {
-  std::optional<SeenPlace> seen = seen_at(viewer, x, y);
-  const auto* const painted = std::get_if<PaintedContent>(&viewer.frame()->shown);
-  if (!seen || painted == nullptr || !painted->painting || painted->painting->surfaces.seen.empty()) return {};
-  seen->x += (painted->painting->surfaces.seen.front().view - left_eye) * seen->disparity_px;
-  return seen;
+  const std::optional<float> shown_px = disparity_under(viewer, x, y);
+  if (!shown_px) return {};
+  const auto* const painted = std::get_if<PaintedContent>(&viewer.session().opened.content);
+  if (painted == nullptr || !painted->photograph || !painted->photograph->geometry) return {};
+  // Depth that was placed for a display moves places about the reference view, not about the left one; the difference
+  // is less than a brush.
+  const PlaceInView place = *place_at(viewer.frame()->places, x, y);
+  const double in_left = place.x + (place.view - left_eye) * *shown_px;
+  const Image<float>& disparity = painted->photograph->geometry->left_disparity;
+  const int column = static_cast<int>(std::floor(in_left)), row = static_cast<int>(std::floor(place.y));
+  if (!disparity.contains(column, row)) return {};
+  return SeenPlace{static_cast<float>(in_left), static_cast<float>(place.y), disparity(column, row)};
 }
 
 std::optional<float> disparity_under(const Viewer& viewer, double x, double y) {

@@ -50,7 +50,7 @@ struct SeenPlace {
 /// What is seen at a pixel of a viewer's frame; none where its depth is not known.
 std::optional<SeenPlace> seen_at(const Viewer& viewer, double x, double y);
 
-/// The same in pixels of the left view, whose disparity a photograph is painted with.
+/// What is seen there, in pixels of the left view, and the disparity that the photograph is painted with there.
 std::optional<SeenPlace> seen_in_left(const Viewer& viewer, double x, double y);
 
 /// The disparity of what is seen at a pixel of a viewer's frame, in pixels of the content; none where it is not known.

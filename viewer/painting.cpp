@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <iterator>
 #include <utility>
 
 #include "wheatstone/app/detail_map.h"
@@ -33,14 +34,11 @@ Image<float> reduced_disparity(ImageView<const float> disparity, PictureSize siz
   return small;
 }
 
-ImageView<const std::uint8_t> detail_of(const Photograph& photograph, const Style& style) {
-  return reads_detail(style) && photograph.detail ? photograph.detail->view() : ImageView<const std::uint8_t>();
-}
-
 /// As large as the photograph.
-Painting coarse_painting(const Photograph& photograph, const Style& style, const Progress& progress) {
+Painting coarse_painting(const Photograph& photograph, const Style& style, ImageView<const std::uint8_t> detail,
+                         const Progress& progress) {
   const Image<Rgb8>& left = photograph.pictures.left;
-  Painting painting = small_painting(photograph, style, coarse_px, progress);
+  Painting painting = small_painting(photograph, style, coarse_px, detail, progress);
   const int width = width_of(painting);
   return placed(std::move(painting), {.width = left.width(),
                                       .height = left.height(),
@@ -57,34 +55,46 @@ std::string time_left(double done, double seconds) {
 
 }  // namespace
 
-Painting small_painting(const Photograph& photograph, const Style& style, int largest_px, const Progress& progress) {
+Painting small_painting(const Photograph& photograph, const Style& style, int largest_px,
+                        ImageView<const std::uint8_t> detail, const Progress& progress) {
   const Image<Rgb8>& left = photograph.pictures.left;
   const PictureSize size = reduced_size({left.width(), left.height()}, largest_px);
   const StereoPair pair{reduced(left, size), reduced(photograph.pictures.right, size)};
   const StereoGeometry geometry = geometry_from_both(reduced_disparity(photograph.geometry->left_disparity, size),
                                                      reduced_disparity(photograph.geometry->right_disparity, size));
-  return plan_painting(pair, geometry, style, progress, ViewRange{}, detail_of(photograph, style));
+  return plan_painting(pair, geometry, style, progress, ViewRange{}, detail);
 }
 
 namespace {
 
+/// Retouches a photograph's geometry; goes on from the touches that were done before.
+void retouch_geometry(std::span<const Touch> touches, const Progress& progress, Photograph& photograph) {
+  const std::size_t done = photograph.touches.size();
+  const bool goes_on =
+      photograph.found && touches.size() >= done && std::ranges::equal(photograph.touches, touches.first(done));
+  if (!photograph.found) photograph.found = photograph.geometry;
+  Image<float> disparity = (goes_on ? *photograph.geometry : *photograph.found).left_disparity;
+  retouch_disparity(goes_on ? touches.subspan(done) : touches, photograph.pictures.left, disparity, progress);
+  photograph.geometry = geometry_from_left(std::move(disparity));
+  photograph.touches.assign(touches.begin(), touches.end());
+}
+
 /// The photograph with what a style needs of it, retouched; the same where nothing is to be done.
 std::shared_ptr<const Photograph> made_ready(const std::shared_ptr<const Photograph>& photograph, const Style& style,
                                              std::span<const Touch> touches, const Progress& progress) {
+  std::vector<Touch> of_depth;
+  std::ranges::copy_if(touches, std::back_inserter(of_depth),
+                       [](const Touch& touch) { return touch.kind != Retouch::detail; });
   const bool wants_detail = reads_detail(style) && !photograph->detail;
-  if (photograph->geometry && !wants_detail && touches.empty() && !photograph->found) return photograph;
+  if (photograph->geometry && !wants_detail && of_depth == photograph->touches) return photograph;
   auto ready = std::make_shared<Photograph>(*photograph);
   if (!ready->geometry) ready->geometry = find_geometry(ready->pictures, {}, progress).geometry;
   if (wants_detail) ready->detail = detail_of_faces(ready->pictures.left);
-  const bool changes_depth =
-      std::ranges::any_of(touches, [](const Touch& touch) { return touch.kind != Retouch::detail; });
-  if (changes_depth) {
-    if (!ready->found) ready->found = ready->geometry;
-    Image<float> disparity = ready->found->left_disparity;
-    retouch_disparity(touches, ready->pictures.left, disparity);
-    ready->geometry = geometry_from_left(std::move(disparity));
+  if (!of_depth.empty()) {
+    retouch_geometry(of_depth, progress, *ready);
   } else if (ready->found) {
     ready->geometry = std::exchange(ready->found, {});
+    ready->touches.clear();
   }
   return ready;
 }
@@ -109,9 +119,9 @@ void paint_in_steps(const std::shared_ptr<const Photograph>& photograph, const S
   const std::shared_ptr<const Photograph> known = made_ready(photograph, style, touches, progress);
   if (!photograph->geometry) deliver({nullptr, known});
   const Image<Rgb8>& left = known->pictures.left;
-  if (std::max(left.width(), left.height()) > 2 * coarse_px)
-    deliver({std::make_shared<const Painting>(coarse_painting(*known, style, progress)), known});
   const Image<std::uint8_t> detail = retouched_detail(*known, style, touches);
+  if (std::max(left.width(), left.height()) > 2 * coarse_px)
+    deliver({std::make_shared<const Painting>(coarse_painting(*known, style, detail, progress)), known});
   deliver({std::make_shared<const Painting>(
                plan_painting(known->pictures, *known->geometry, style, progress, widest_views, detail)),
            known});

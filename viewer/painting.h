@@ -26,8 +26,9 @@ void paint_in_steps(const std::shared_ptr<const Photograph>& photograph, const S
 
 /// A painting of a small copy of a photograph whose geometry is known, in pixels of the copy, which has at most so many
 /// on its longer side. Lengths of a style count in pixels of a 640-pixel-wide picture, so that it looks as the whole.
+/// `detail` is of the whole photograph; empty: it is painted evenly.
 Painting small_painting(const Photograph& photograph, const Style& style, int largest_px,
-                        const Progress& progress = {});
+                        ImageView<const std::uint8_t> detail = {}, const Progress& progress = {});
 
 /// A film that is to be painted into a file, as `wheatstone rotoscope` does it.
 struct WholeFilm {

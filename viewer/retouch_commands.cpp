@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <optional>
@@ -9,6 +10,7 @@
 #include "depth_seen.h"
 #include "inputs.h"
 #include "wheatstone/error.h"
+#include "wheatstone/files/input_guard.h"
 #include "wheatstone/painting/paint.h"
 #include "wheatstone/pictures/disparity_file.h"
 #include "wheatstone/pictures/write_image.h"
@@ -59,7 +61,7 @@ Touch touch_of(const Session& session, const SeenPlace& at, float pressure) {
       is(Retouch::smooth, smoothed_over * brush.radius_px);
       break;
     case RetouchTool::flatten:
-      is(Retouch::set, brush.flatten_to);
+      is(Retouch::set, brush.begun_at_px.value_or(at.disparity_px));
       break;
     case RetouchTool::fill_far:
       is(Retouch::fill, farthest);
@@ -77,18 +79,22 @@ Touch touch_of(const Session& session, const SeenPlace& at, float pressure) {
   return touch;
 }
 
-/// At X Y, with the PRESSURE of a pen. A stroke of the hand begins, or goes on.
+/// At X Y, with the PRESSURE of a pen. A stroke of the hand begins, or goes on; one that begins beside the picture
+/// begins where it first meets it.
 void do_touch(Viewer& viewer, const Words& words, bool goes_on) {
   Session& session = viewer.session();
+  std::optional<float>& begun_at_px = session.retouch.begun_at_px;
+  if (!goes_on) begun_at_px.reset();
   const double x = number_of(words[0]), y = number_of(words[1]);
   const float pressure = words.size() > 2 ? static_cast<float>(number_of(words[2], 0, 1)) : 1;
   if (!can_retouch(viewer))
     throw Error(ErrorKind::wrong_usage, "there is no photograph to retouch, or it is not painted yet");
   const std::optional<SeenPlace> at = seen_in_left(viewer, x, y);
   if (!at) return viewer.tell("the depth is not known there");
-  if (!goes_on) session.retouch.flatten_to = at->disparity_px;
+  const bool begins = !begun_at_px;
+  if (begins) begun_at_px = at->disparity_px;
   Touch touch = touch_of(session, *at, pressure);
-  touch.is_another = goes_on;
+  touch.goes_on = !begins;
   if (touch.kind == Retouch::detail && !reads_detail(session.state.style))
     throw Error(ErrorKind::wrong_usage, fmt::format("the style {} paints all places alike; oil reads the detail map",
                                                     session.state.style.name));
@@ -96,26 +102,40 @@ void do_touch(Viewer& viewer, const Words& words, bool goes_on) {
   viewer.paint();
 }
 
-/// The disparity that the photograph is painted with; beside it the pictures that it belongs to, where no file has
-/// them.
+/// The disparity as it was retouched; beside it the pictures that it belongs to, where no file has them.
+void write_retouched(const std::filesystem::path& path, const std::array<std::filesystem::path, 2>& pictures,
+                     const Photograph& photograph, std::span<const Touch> touches) {
+  Image<float> disparity = (photograph.found ? *photograph.found : *photograph.geometry).left_disparity;
+  retouch_disparity(touches, photograph.pictures.left, disparity);
+  write_disparity(path, disparity);
+  if (!photograph.is_rectified) return;
+  write_image(pictures[0], photograph.pictures.left);
+  write_image(pictures[1], photograph.pictures.right);
+}
+
 void save_disparity(Viewer& viewer, const Words& words) {
-  const Photograph* const photograph = retouched_photograph(viewer);
-  if (photograph == nullptr) throw Error(ErrorKind::wrong_usage, "there is no photograph whose depth is known");
+  if (!can_retouch(viewer)) throw Error(ErrorKind::wrong_usage, "there is no photograph whose depth is known");
+  const std::shared_ptr<const Photograph> photograph =
+      std::get<PaintedContent>(viewer.session().opened.content).photograph;
   const std::filesystem::path path = words[0];
   const auto beside = [&path](const char* eye) {
     return path.parent_path() / fmt::format("{}_{}.png", path.stem().string(), eye);
   };
+  const std::array pictures{beside("left"), beside("right")};
+  const Item& inputs = *open_item(viewer.session());
+  check_not_an_input(path, inputs);
+  if (photograph->is_rectified)
+    for (const std::filesystem::path& picture : pictures) check_not_an_input(picture, inputs);
   viewer.save(
-      path, [path, map = photograph->geometry->left_disparity] { write_disparity(path, map); },
-      [&viewer] { viewer.session().has_unsaved_work = false; });
-  if (!photograph->is_rectified) return;
-  viewer.save(beside("left"), [file = beside("left"), left = photograph->pictures.left] { write_image(file, left); });
-  viewer.save(
-      beside("right"), [file = beside("right"), right = photograph->pictures.right] { write_image(file, right); },
-      [&viewer, path] {
-        const std::string stem = path.stem().string();
-        viewer.tell(fmt::format("saved {}, and the rectified pictures that it belongs to, {}_left.png and {}_right.png",
-                                path.string(), stem, stem));
+      path,
+      [path, pictures, photograph, touches = state_of(viewer).touches] {
+        write_retouched(path, pictures, *photograph, touches);
+      },
+      [&viewer, path, pictures, is_rectified = photograph->is_rectified, touches = state_of(viewer).touches] {
+        if (touches == state_of(viewer).touches) viewer.session().has_unsaved_work = false;
+        if (is_rectified)
+          viewer.tell(fmt::format("saved {}, and the rectified pictures that it belongs to, {} and {}", path.string(),
+                                  pictures[0].filename().string(), pictures[1].filename().string()));
       });
 }
 
@@ -138,7 +158,7 @@ constexpr Command retouch_table[] = {
      "Retouch",
      "Radius of the brush: in pixels of the picture",
      "",
-     [](Viewer& v, const Words& w) { v.session().retouch.radius_px = static_cast<float>(number_of(w[0], 1, 2000)); },
+     [](Viewer& v, const Words& w) { v.session().retouch.radius_px = static_cast<float>(number_of(w[0], 1, 500)); },
      {.now = [](const Viewer& v) { return fmt::format("{}", v.session().retouch.radius_px); },
       .range = {2, 200, 1},
       .applies = can_retouch}},

@@ -172,6 +172,50 @@ TEST_F(OpenPhotograph, SavesThePicturesThatTheMapBelongsToWhereTheyWereRectified
   EXPECT_NE(viewer.session().message.find("the rectified pictures that it belongs to"), std::string::npos);
 }
 
+TEST_F(OpenPhotograph, HasNoTouchesOfTheOneBefore) {
+  run("retouch nearer");
+  run("touch 120 80");
+  run("open " + (folder / "right.png").string() + " " + (folder / "left.png").string());
+  EXPECT_TRUE(viewer.session().state.touches.empty());
+  run("undo");
+  EXPECT_TRUE(viewer.session().state.touches.empty());
+  EXPECT_FALSE(content().photograph->found);
+}
+
+TEST_F(OpenPhotograph, IsTouchedWhereAStrokeFirstMeetsIt) {
+  run("zoom 0.5");
+  run("retouch nearer");
+  run("touch 1 1");  // beside it
+  EXPECT_TRUE(viewer.session().state.touches.empty());
+  run("touch-on 120 80");
+  run("touch-on 125 80");
+  EXPECT_EQ(viewer.session().state.touches.size(), 2u);
+  run("undo");
+  EXPECT_TRUE(viewer.session().state.touches.empty());
+}
+
+TEST_F(OpenPhotograph, IsTouchedInTheRightEyesPictureToo) {
+  const Image<float> before = disparity();
+  run("mode right");
+  run("retouch nearer");
+  run("brush-radius 6");
+  run("touch 120 80");
+  double sum = 0, column = 0;
+  for (int x = 0; x < 240; ++x) {
+    const double change = static_cast<double>(disparity()(x, 80)) - before(x, 80);
+    sum += change;
+    column += change * (x + 0.5);
+  }
+  ASSERT_GT(sum, 0);
+  const double middle = column / sum;
+  EXPECT_NEAR(middle - static_cast<double>(before(static_cast<int>(middle), 80)), 120, 2);
+}
+
+TEST_F(OpenPhotograph, KeepsItsFilesWhateverIsSaved) {
+  for (const char* name : {"left.png", "right.png"})
+    expect_error(ErrorKind::wrong_usage, "input", [&] { run("save-disparity " + (folder / name).string()); });
+}
+
 TEST_F(OpenPhotograph, SaysWhyItCannotBeTouched) {
   expect_error(ErrorKind::wrong_usage, "no tool is chosen", [&] { run("touch 120 80"); });
   expect_error(ErrorKind::wrong_usage, "'hammer' is no tool", [&] { run("retouch hammer"); });

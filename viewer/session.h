@@ -52,9 +52,9 @@ inline constexpr std::array<std::string_view, 9> retouch_tool_names{
 
 struct RetouchBrush {
   RetouchTool tool = RetouchTool::off;
-  float radius_px = 30;  ///< in pixels of the picture
-  float strength = 1;    ///< of a touch: pixels of disparity, or 40 levels of detail
-  float flatten_to = 0;  ///< the disparity where the stroke of the hand began
+  float radius_px = 30;                   ///< in pixels of the picture
+  float strength = 1;                     ///< of a touch: pixels of disparity, or 40 levels of detail
+  std::optional<float> begun_at_px = {};  ///< the disparity where the stroke of the hand began
 };
 
 /// What stands beside the picture.

@@ -13,7 +13,9 @@ constexpr int preview_px = 192;
 }  // namespace
 
 Image<Rgb8> preview_of(const Photograph& photograph, const Style& style, int largest_px, const Progress& progress) {
-  return draw(small_painting(photograph, style, largest_px, progress), left_eye).picture;
+  const auto detail =
+      reads_detail(style) && photograph.detail ? photograph.detail->view() : ImageView<const std::uint8_t>();
+  return draw(small_painting(photograph, style, largest_px, detail, progress), left_eye).picture;
 }
 
 void StylePreviews::show(const std::shared_ptr<const Photograph>& photograph) {

@@ -42,8 +42,9 @@ DrawnViews photographs(const StereoPair& pair, const WantedPart& part, const std
 }
 
 StereoPair under_its_depth(const Photograph& photograph) {
-  return {disparity_over(photograph.pictures.left, photograph.geometry->left_disparity),
-          disparity_over(photograph.pictures.right, photograph.geometry->right_disparity)};
+  const StereoGeometry& geometry = *photograph.geometry;
+  return {disparity_over(photograph.pictures.left, geometry.left_disparity, geometry.left_disparity),
+          disparity_over(photograph.pictures.right, geometry.right_disparity, geometry.left_disparity)};
 }
 
 std::vector<Image<Rgb8>> slice_views(const SliceStack& stack, const std::vector<ViewPosition>& positions,
@@ -157,8 +158,8 @@ const DrawnViews* ViewDrawer::photographed(const Content& content, const WantedP
   if (!photographed_ || photographed_->content != content || photographed_->part.scale != part.scale ||
       photographed_->wanted != positions || photographed_with_depth_ != with_depth) {
     const Photograph& photograph = *painted->photograph;
-    DrawnViews views = photographs(
-        with_depth && photograph.geometry ? under_its_depth(photograph) : photograph.pictures, part, positions);
+    DrawnViews views = with_depth && photograph.geometry ? photographs(under_its_depth(photograph), part, positions)
+                                                         : photographs(photograph.pictures, part, positions);
     photographed_with_depth_ = with_depth;
     photographed_ = Drawn{content, part, Slicing(), Placing(), positions, std::move(views)};
   }

@@ -146,10 +146,6 @@ void Viewer::open(std::size_t item) {
   session_.fixation.reset();
   session_.depth_around_target.reset();
   session_.state.depth_around.reset();
-  // Touches are of what was open.
-  session_.state.touches.clear();
-  for (std::vector<ViewState>* const states : {&session_.done, &session_.undone})
-    for (ViewState& state : *states) state.touches.clear();
   session_.opening = Activity{"reading", 0};
   const std::uint64_t job = ++job_;
   reads_particles_ = false;
@@ -228,7 +224,18 @@ void Viewer::take_usual_mode() {
   session_.state.mode = has_one_view(content) ? "left" : is_scene ? usual.scenes : usual.pictures;
 }
 
+void Viewer::forget_touches() {
+  session_.retouch.begun_at_px.reset();
+  session_.state.touches.clear();
+  for (std::vector<ViewState>* const states : {&session_.done, &session_.undone}) {
+    for (ViewState& state : *states) state.touches.clear();
+    const auto alike = std::ranges::unique(*states);
+    states->erase(alike.begin(), alike.end());
+  }
+}
+
 void Viewer::take_opened(Opened opened) {
+  forget_touches();  // they are of what was open
   session_.opened = std::move(opened);
   take_usual_mode();
   forget_brightness(session_.state.look);
@@ -423,6 +430,7 @@ std::string proposed_name(const Session& session, std::string_view command) {
   if (command == "save-camera") return "path.toml";
   if (command == "save-painting") return stem + ".wst";
   if (command == "paint-film") return stem + "_painted.mp4";
+  if (command == "save-disparity") return stem + "_disparity.png";
   return fmt::format("{}_{}.png", stem, session.state.mode);
 }
 

@@ -132,6 +132,7 @@ class Viewer {
   void post_frame(Frame frame, const Asked& asked);
   ShowFirst showing(std::uint64_t job);
   void take_opened(Opened opened);
+  void forget_touches();
   /// Shows what was opened in the mode of its kind.
   void take_usual_mode();
   void take_painted(const PaintedContent& content, const std::optional<DepthEnds>& depth);

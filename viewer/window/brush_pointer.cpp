@@ -45,36 +45,46 @@ void BrushPointer::touch(const QPointF& place, bool goes_on) {
               {fmt::format("{}", place.x()), fmt::format("{}", place.y()), fmt::format("{:.3f}", pressure_)});
 }
 
+void BrushPointer::draw_to(const QPointF& place) {
+  const RetouchBrush& brush = viewer_.session().retouch;
+  if (brush.tool == RetouchTool::fill_far || brush.tool == RetouchTool::fill_near) return;  // one fill a press
+  const double step = std::max(brush.radius_px * viewer_.frame()->scale / 2, 1.0);
+  const QPointF from = touched_at_, way = place - from;
+  const double length = std::hypot(way.x(), way.y());
+  for (int i = 1; i * step <= length; ++i) touch(from + way * (i * step / length), true);
+}
+
 bool BrushPointer::take(QEvent* event, double ratio) {
   switch (event->type()) {
     case QEvent::TabletPress:
-    case QEvent::TabletMove:
+    case QEvent::TabletMove: {
       // A mouse's event follows it.
-      pressure_ = std::clamp(static_cast<QTabletEvent*>(event)->pressure(), 0.0, 1.0);
+      const auto* const pen = static_cast<QTabletEvent*>(event);
+      pressure_ = pen->buttons() == Qt::NoButton ? 1 : std::clamp(pen->pressure(), 0.0, 1.0);
       return false;
+    }
     case QEvent::TabletRelease:
       pressure_ = 1;
       return false;
-    case QEvent::MouseButtonPress: {
+    case QEvent::MouseButtonPress:
+    case QEvent::MouseButtonDblClick: {
       const auto* const mouse = static_cast<QMouseEvent*>(event);
+      if (is_down_) return true;
       if (!is_chosen() || mouse->button() != Qt::LeftButton || mouse->modifiers() != Qt::NoModifier) return false;
       is_down_ = true;
       touch(mouse->position() * ratio, false);
       return true;
     }
     case QEvent::MouseMove: {
+      const auto* const mouse = static_cast<QMouseEvent*>(event);
+      if (!is_chosen() || !mouse->buttons().testFlag(Qt::LeftButton)) is_down_ = false;
       if (!is_down_ || viewer_.frame() == nullptr) return false;
-      const QPointF place = static_cast<QMouseEvent*>(event)->position() * ratio;
-      const double step = viewer_.session().retouch.radius_px * viewer_.frame()->scale / 2;
-      if (std::hypot(place.x() - touched_at_.x(), place.y() - touched_at_.y()) >= step) touch(place, true);
+      draw_to(mouse->position() * ratio);
       return true;
     }
     case QEvent::MouseButtonRelease:
-      return std::exchange(is_down_, false);
-    case QEvent::MouseButtonDblClick:
-      if (!is_chosen()) return false;
-      is_down_ = true;
-      touch(static_cast<QMouseEvent*>(event)->position() * ratio, false);
+      if (!is_down_) return false;
+      if (static_cast<QMouseEvent*>(event)->button() == Qt::LeftButton) is_down_ = false;
       return true;
     default:
       return false;

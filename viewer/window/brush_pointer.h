@@ -23,6 +23,8 @@ class BrushPointer {
  private:
   bool is_chosen() const;
   void touch(const QPointF& place, bool goes_on);
+  /// Touches on the way to a place, half a radius apart.
+  void draw_to(const QPointF& place);
 
   const Viewer& viewer_;
   DoCommand do_command_;

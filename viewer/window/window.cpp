@@ -263,6 +263,10 @@ bool Window::compares_while_held(QEvent* event) {
 
 bool Window::pointer_event(QEvent* event) {
   const double ratio = surface_->widget()->devicePixelRatioF();
+  if (event->type() == QEvent::MouseMove) {
+    pointer_ = static_cast<QMouseEvent*>(event)->position() * ratio;
+    show_depth_under_pointer();
+  }
   if (brush_->take(event, ratio)) return true;
   switch (event->type()) {
     case QEvent::MouseButtonPress: {

@@ -8,9 +8,11 @@
 #include "wheatstone/image/opencv_internal.h"
 
 namespace wheatstone {
+namespace {
 
-Image<Rgb8> disparity_picture(ImageView<const float> disparity) {
-  const float far = disparity_percentile(disparity, 0.005), near = disparity_percentile(disparity, 0.995);
+/// In the colours that a map of the same scene has.
+Image<Rgb8> coloured_as(ImageView<const float> map, ImageView<const float> disparity) {
+  const float far = disparity_percentile(map, 0.005), near = disparity_percentile(map, 0.995);
   const float range = std::max(near - far, 1e-6f);
   Image<std::uint8_t> levels(disparity.width(), disparity.height());
   for (int y = 0; y < levels.height(); ++y)
@@ -27,8 +29,13 @@ Image<Rgb8> disparity_picture(ImageView<const float> disparity) {
   return picture;
 }
 
-Image<Rgb8> disparity_over(ImageView<const Rgb8> photograph, ImageView<const float> disparity) {
-  Image<Rgb8> picture = disparity_picture(disparity);
+}  // namespace
+
+Image<Rgb8> disparity_picture(ImageView<const float> disparity) { return coloured_as(disparity, disparity); }
+
+Image<Rgb8> disparity_over(ImageView<const Rgb8> photograph, ImageView<const float> disparity,
+                           ImageView<const float> left_disparity) {
+  Image<Rgb8> picture = coloured_as(left_disparity, disparity);
   cv::Mat grey, mixed = as_mat(picture);
   cv::cvtColor(as_mat(photograph), grey, cv::COLOR_RGB2GRAY);
   cv::cvtColor(grey, grey, cv::COLOR_GRAY2RGB);

@@ -219,9 +219,10 @@ std::optional<MatchedPair> match_at_this_size(const StereoPair& pair, const Disp
   MatchedPair matched;
   matched.left_found_share = share_of(match.confirmed);
   matched.plain_share = share_of(match.plain);
-  matched.left_confidence = confidence_of(match);
   matched.right_found_share = known_share(match.right);
   report(progress, "matching", 1);
+  if (!ours) complete_others(match, pair, range, options);
+  matched.left_confidence = confidence_of(match);
   if (ours) {
     match.found = {};
     if (!options.wls) match.right = {};
@@ -230,8 +231,6 @@ std::optional<MatchedPair> match_at_this_size(const StereoPair& pair, const Disp
       fill_from_farther_side(match.right);
       match.left = refined(match.left, match.right, left, range, options);
     }
-  } else {
-    complete_others(match, pair, range, options);
   }
   matched.geometry = geometry_from_left(std::move(match.left));
   return matched;

@@ -1,7 +1,9 @@
 #include "wheatstone/matching/match.h"
 
 #include <gtest/gtest.h>
+
 #include <tbb/global_control.h>
+#include <array>
 
 #include <cmath>
 #include <filesystem>
@@ -151,6 +153,40 @@ TEST(Match, FindsTeddysTrueDisparities) {
   const StereoPair teddy{read_image(folder / "left.png"), read_image(folder / "right.png")};
   const Image<float> truth = read_disparity(folder / "disp_left.png", 4.f);
   EXPECT_LT(bad_2(match(teddy).geometry.left_disparity, truth), 0.08);
+}
+
+/// Shares of the pixels that have each confidence: 0, 128 and 255.
+std::array<double, 3> confidences_of(const MatchedPair& matched) {
+  std::array<double, 3> shares{};
+  for (const std::uint8_t confidence : matched.left_confidence.pixels()) {
+    EXPECT_TRUE(confidence == 0 || confidence == 128 || confidence == 255) << static_cast<int>(confidence);
+    shares[static_cast<std::size_t>((confidence + 1) / 128)] +=
+        1 / static_cast<double>(matched.left_confidence.pixels().size());
+  }
+  return shares;
+}
+
+TEST(MatchConfidencePicture, SaysWhereTheDisparityIsFound) {
+  const SyntheticStill still = make_synthetic_still({.width = 320, .height = 240, .samples_a_side = 1});
+  for (const double size : {1.0, 0.5}) {
+    MatchOptions options;
+    options.size = size;
+    const MatchedPair matched = match(still.pictures, options);
+    ASSERT_EQ(matched.left_confidence.width(), 320);
+    EXPECT_GT(confidences_of(matched)[2], 0.6);
+    // The right eye sees nothing of what is hidden from it.
+    double hidden = 0, sure = 0;
+    for (std::size_t i = 0; i < matched.left_confidence.pixels().size(); ++i) {
+      if (still.geometry.left_occlusion.pixels()[i] == 0) continue;
+      ++hidden;
+      sure += matched.left_confidence.pixels()[i] == 255 ? 1 : 0;
+    }
+    EXPECT_LT(sure, 0.4 * hidden) << size;
+  }
+  MatchOptions distrusting;
+  distrusting.matcher = Matcher::sgbm;
+  distrusting.distrust = true;
+  EXPECT_GT(confidences_of(match(still.pictures, distrusting))[1], 0);
 }
 
 }  // namespace wheatstone::match_test

@@ -13,12 +13,12 @@ using Colour = PaletteColour;
 
 Colour colour_of(Rgb8 c) { return {static_cast<double>(c.r), static_cast<double>(c.g), static_cast<double>(c.b)}; }
 
-/// Of two colours with these differences of their channels. Rec. 601's luminance.
+/// Of two colours with these differences of their channels, with Rec. 601's luminance. Greys are as far apart as in
+/// RGB.
 double unlikeness_of(double red, double green, double blue) {
-  constexpr double of_colour = 3;
   const double luminance = 0.299 * red + 0.587 * green + 0.114 * blue;
   const double redness = red - luminance, blueness = blue - luminance;
-  return 3 * luminance * luminance + of_colour * (redness * redness + blueness * blueness);
+  return 3 * (luminance * luminance + redness * redness + blueness * blueness);
 }
 
 double unlikeness(const Colour& a, const Colour& b) {
@@ -86,8 +86,8 @@ void move_to_means(const std::vector<Colour>& samples, int rounds, std::vector<C
   }
 }
 
-/// Colours farther than this from all of a palette are missed: nobody takes the palette's nearest for them. A little
-/// below that, because regions have the mean of their pixels.
+/// Colours whose unlikeness to all of a palette is above the square of this are missed: nobody takes the palette's
+/// nearest for them. A little below that, because regions have the mean of their pixels.
 constexpr double missed_from = 0.8 * unlike_colours;
 
 std::vector<Colour> missed_by(const std::vector<Colour>& centres, const std::vector<Colour>& samples) {

@@ -93,7 +93,8 @@ void add_missing_colours(std::vector<RegionMeans> places, std::size_t most_colou
   for (const RegionMeans& place : places) {
     if (palette.size() >= most_colours) return;
     const Rgb8 mean = mean_colour(place);
-    if (squared_distance(palette[nearest_colour(palette, mean)], mean) > alike * alike) palette.push_back(mean);
+    if (std::ranges::none_of(palette, [&](Rgb8 c) { return squared_distance(c, mean) <= alike * alike; }))
+      palette.push_back(mean);
   }
 }
 

@@ -41,15 +41,11 @@ void brush_over(const Touch& touch, Image<Value>& map, Change change) {
 void smooth(const Touch& touch, Image<float>& disparity) {
   const cv::Rect square = square_of(touch, disparity.width(), disparity.height());
   if (square.empty()) return;
-  // What lies beside the touch takes part in the means.
-  const int reach = 1 + static_cast<int>(3 * touch.amount);
-  const cv::Rect whole(0, 0, disparity.width(), disparity.height());
-  const cv::Rect around =
-      cv::Rect(square.x - reach, square.y - reach, square.width + 2 * reach, square.height + 2 * reach) & whole;
+  // OpenCV reads on beyond a part of a matrix: what lies beside the square takes part in the means.
   cv::Mat mean;
-  cv::GaussianBlur(as_mat(disparity)(around), mean, {}, static_cast<double>(touch.amount), 0, cv::BORDER_REPLICATE);
+  cv::GaussianBlur(as_mat(disparity)(square), mean, {}, static_cast<double>(touch.amount), 0, cv::BORDER_REPLICATE);
   brush_over(touch, disparity, [&](float value, float share, int x, int y) {
-    return value + share * (mean.at<float>(y - around.y, x - around.x) - value);
+    return value + share * (mean.at<float>(y - square.y, x - square.x) - value);
   });
 }
 
@@ -61,14 +57,14 @@ void fill(const Touch& touch, ImageView<const Rgb8> picture, Image<float>& dispa
   // Noise would cut a sky into pieces.
   cv::Mat steady;
   cv::medianBlur(as_mat(picture), steady, 5);
-  cv::Mat near(picture.height() + 2, picture.width() + 2, CV_8U, cv::Scalar(0)), far = near.clone();
+  cv::Mat connected(picture.height() + 2, picture.width() + 2, CV_8U, cv::Scalar(0)), like_begin = connected.clone();
   const int how = 4 | (255 << 8) | cv::FLOODFILL_MASK_ONLY;
-  cv::floodFill(steady, far, begin, {}, nullptr, cv::Scalar::all(from_begin), cv::Scalar::all(from_begin),
+  cv::floodFill(steady, like_begin, begin, {}, nullptr, cv::Scalar::all(from_begin), cv::Scalar::all(from_begin),
                 how | cv::FLOODFILL_FIXED_RANGE);
-  near.setTo(1, far == 0);  // pixels that are not 0 are not filled
-  cv::floodFill(steady, near, begin, {}, nullptr, cv::Scalar::all(from_neighbour), cv::Scalar::all(from_neighbour),
+  connected.setTo(1, like_begin == 0);  // pixels that are not 0 are not filled
+  cv::floodFill(steady, connected, begin, {}, nullptr, cv::Scalar::all(from_neighbour), cv::Scalar::all(from_neighbour),
                 how);
-  const cv::Mat filled = near(cv::Rect(1, 1, picture.width(), picture.height())) == 255;
+  const cv::Mat filled = connected(cv::Rect(1, 1, picture.width(), picture.height())) == 255;
   // The specks that it left out, and the pixels at its rim in which both colours mix.
   cv::Mat closed;
   cv::morphologyEx(filled, closed, cv::MORPH_CLOSE, cv::getStructuringElement(cv::MORPH_ELLIPSE, {5, 5}));
@@ -77,8 +73,10 @@ void fill(const Touch& touch, ImageView<const Rgb8> picture, Image<float>& dispa
 
 }  // namespace
 
-void retouch_disparity(std::span<const Touch> touches, ImageView<const Rgb8> picture, Image<float>& disparity) {
+void retouch_disparity(std::span<const Touch> touches, ImageView<const Rgb8> picture, Image<float>& disparity,
+                       const Progress& progress) {
   for (const Touch& touch : touches) {
+    report(progress, "retouching", 0);
     switch (touch.kind) {
       case Retouch::shift:
         brush_over(touch, disparity, [&](float d, float share, int, int) { return d + share * touch.amount; });

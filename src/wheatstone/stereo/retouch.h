@@ -4,6 +4,7 @@
 #include <span>
 
 #include "wheatstone/image/image.h"
+#include "wheatstone/progress.h"
 
 namespace wheatstone {
 
@@ -12,25 +13,27 @@ enum class Retouch {
   shift,   ///< adds `amount` pixels of disparity
   smooth,  ///< takes the mean of the surroundings, over `amount` pixels
   set,     ///< gives the disparity `amount`
-  fill,    ///< gives the disparity `amount` to all that is connected in like colours
+  fill,    ///< gives the disparity `amount` to all that is connected in like colours, up to its rim
   detail,  ///< adds `amount` levels to the detail map
 };
 
 /// One touch of a round brush: whole within half its radius, less towards its rim.
 struct Touch {
   Retouch kind = Retouch::shift;
-  float x = 0, y = 0;       ///< of its middle, in pixels of the left view
-  float radius_px = 20;     ///< above 0; a fill has none
-  float amount = 0;         ///< as the kind says
-  bool is_another = false;  ///< it goes on with the stroke of the hand that the touch before it belongs to
+  float x = 0, y = 0;    ///< of its middle, in pixels of the left view
+  float radius_px = 20;  ///< above 0; a fill has none
+  float amount = 0;      ///< as the kind says
+  bool goes_on = false;  ///< it belongs to the same stroke of the hand as the touch before it
   friend bool operator==(const Touch&, const Touch&) = default;
 };
 
 /// Does all touches but those of detail to the left view's disparity, in their order. `picture` is the left
 /// photograph, of the same size, in which fills find what is connected: neighbours that differ by at most 6 levels a
-/// channel from each other, and by 40 from where the fill begins. Every disparity is known. Touches beside the picture
-/// do nothing.
-void retouch_disparity(std::span<const Touch> touches, ImageView<const Rgb8> picture, Image<float>& disparity);
+/// channel from each other, and by 40 from where the fill begins; gaps of up to 4 pixels, as of a wire, are filled,
+/// too. Every disparity is known. Touches beside the picture do nothing. `progress` is called before each touch; what
+/// it throws ends it.
+void retouch_disparity(std::span<const Touch> touches, ImageView<const Rgb8> picture, Image<float>& disparity,
+                       const Progress& progress = {});
 
 /// Does those of detail to a map of View::detail.
 void retouch_detail(std::span<const Touch> touches, Image<std::uint8_t>& detail);
