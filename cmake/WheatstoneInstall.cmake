@@ -8,7 +8,7 @@ target_link_libraries(wheatstone INTERFACE ${rooms})
 
 # wheatstone/wheatstone.h includes all public headers.
 file(GLOB_RECURSE headers RELATIVE ${PROJECT_SOURCE_DIR}/src CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/wheatstone/*.h)
-list(FILTER headers EXCLUDE REGEX "_internal[.]h$")
+list(FILTER headers EXCLUDE REGEX "_(internal|opencv)[.]h$")
 list(SORT headers)
 list(TRANSFORM headers REPLACE "(.+)" "#include \"\\1\"")
 list(JOIN headers "\n" includes)
@@ -22,7 +22,7 @@ install(TARGETS wheatstone ${rooms} EXPORT WheatstoneTargets
 install(EXPORT WheatstoneTargets NAMESPACE Wheatstone:: DESTINATION ${package_folder} COMPONENT development)
 install(TARGETS wheatstone_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/src/wheatstone DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
-  COMPONENT development FILES_MATCHING PATTERN "*.h" PATTERN "*_internal.h" EXCLUDE)
+  COMPONENT development FILES_MATCHING PATTERN "*.h" PATTERN "*_internal.h" EXCLUDE PATTERN "*_opencv.h" EXCLUDE)
 install(FILES ${PROJECT_BINARY_DIR}/generated/wheatstone/wheatstone.h
   DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/wheatstone COMPONENT development)
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT license)

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "wheatstone/drawing/draw.h"
-#include "wheatstone/image/opencv_internal.h"
+#include "wheatstone/image/mat_opencv.h"
 
 namespace wheatstone::viewer {
 namespace {

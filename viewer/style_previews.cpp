@@ -3,6 +3,7 @@
 #include "painting.h"
 #include "wheatstone/drawing/draw.h"
 #include "wheatstone/error.h"
+#include "wheatstone/painting/paint.h"
 #include "wheatstone/stereo/reduced_pair.h"
 
 namespace wheatstone::viewer {

@@ -13,7 +13,7 @@
 #include "stopwatch.h"
 #include "wheatstone/depth/rig.h"
 #include "wheatstone/drawing/draw.h"
-#include "wheatstone/image/opencv_internal.h"
+#include "wheatstone/image/mat_opencv.h"
 #include "wheatstone/kept_memory_internal.h"
 #include "wheatstone/painting/paint.h"
 #include "wheatstone/synthetic/synthetic_still.h"

@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "wheatstone/app/rotoscope.h"
-#include "wheatstone/image/opencv_internal.h"
+#include "wheatstone/image/mat_opencv.h"
 #include "wheatstone/synthetic/synthetic_film.h"
 
 namespace wheatstone::bench {

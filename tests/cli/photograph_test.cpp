@@ -11,7 +11,7 @@
 #include "cli/run_program.h"
 #include "scenes/stereograph_card.h"
 #include "scenes/test_photographs.h"
-#include "wheatstone/image/opencv_internal.h"
+#include "wheatstone/image/mat_opencv.h"
 #include "wheatstone/photograph/write_views.h"
 #include "wheatstone/pictures/read_image.h"
 #include "wheatstone/pictures/write_image.h"

@@ -1,5 +1,7 @@
 #!/usr/bin/env bash
 # A room includes only what stands above it, in programs of a graphics processor, too; and an installed header only the standard library and our own headers.
+# A header that ends in _internal.h is its own room's alone. One that ends in _opencv.h is for all rooms, and is not
+# installed, because it shows OpenCV's types.
 # What plans and draws marks does not see the measures that judge it, although they stand above it.
 # Tests are free: they use scenes with exact truth and measures that stand below what they test.
 # The order is the list of rooms in CMakeLists.txt of the folder given.
@@ -36,7 +38,8 @@ find . -name '*.h' -o -name '*.cpp' -o -name '*.comp' -o -name '*.glsl' | sort |
     here = floor_of(file)
     is_judged = substr(file, 1, index(file, "/") - 1) in judged
     if (here < 0) complain("is in a folder that is no room")
-    installed = file ~ /\.h$/ && file !~ /_internal\.h$/
+    installed = file ~ /\.h$/ && file !~ /_(internal|opencv)\.h$/
+    room = substr(file, 1, index(file, "/"))
   }
   match($0, /^[ \t]*#[ \t]*include[ \t]*"wheatstone\/[^"]*"/) {
     path = $0
@@ -46,7 +49,8 @@ find . -name '*.h' -o -name '*.cpp' -o -name '*.comp' -o -name '*.glsl' | sort |
     if (there < 0) complain("includes " path ", which is in no room")
     if (there > here && file !~ /_test\.cpp$/) complain("includes " path ", which stands below it")
     if (is_judged && path ~ /^measures\// && file !~ /_test\.cpp$/) complain("includes " path ", which judges it")
-    if (installed && path ~ /_internal\.h$/) complain("is installed, but includes " path)
+    if (installed && path ~ /_(internal|opencv)\.h$/) complain("is installed, but includes " path)
+    if (path ~ /_internal\.h$/ && index(path, room) != 1 && file !~ /_test\.cpp$/) complain("includes " path ", which is another room'\''s own")
     next
   }
   installed && match($0, /^[ \t]*#[ \t]*include[ \t]*[<"]/) && $0 !~ /<[a-z_]+>/ {

@@ -5,7 +5,7 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "wheatstone/image/opencv_internal.h"
+#include "wheatstone/image/mat_opencv.h"
 #include "wheatstone/photograph/card_windows_internal.h"
 
 namespace wheatstone {

@@ -9,7 +9,7 @@
 #include "wheatstone/display/lettering.h"
 #include "wheatstone/error.h"
 #include "wheatstone/files/utf8.h"
-#include "wheatstone/image/opencv_internal.h"
+#include "wheatstone/image/mat_opencv.h"
 #include "wheatstone/pictures/read_image.h"
 
 namespace wheatstone {

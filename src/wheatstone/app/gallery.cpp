@@ -1,4 +1,4 @@
-#include "wheatstone/app/gallery.h"
+#include "wheatstone/app/gallery_internal.h"
 
 #include <fmt/format.h>
 

@@ -5,7 +5,7 @@
 #include "wheatstone/app/half_size_internal.h"
 #include "wheatstone/depth/warp_row.h"
 #include "wheatstone/drawing/relief.h"
-#include "wheatstone/image/opencv_internal.h"
+#include "wheatstone/image/mat_opencv.h"
 #include "wheatstone/strokes/layer_plan.h"
 
 namespace wheatstone {

@@ -13,7 +13,7 @@
 #include <utility>
 
 #include "wheatstone/error.h"
-#include "wheatstone/files/followed_path_internal.h"
+#include "wheatstone/files/followed_path.h"
 #include "wheatstone/files/input_guard.h"
 
 namespace wheatstone {

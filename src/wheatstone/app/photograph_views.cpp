@@ -7,7 +7,7 @@
 
 #include "wheatstone/depth/convergence.h"
 #include "wheatstone/depth/rig.h"
-#include "wheatstone/image/opencv_internal.h"
+#include "wheatstone/image/mat_opencv.h"
 #include "wheatstone/stereo/outer_view.h"
 
 namespace wheatstone {

@@ -10,7 +10,7 @@
 
 #include "wheatstone/app/rotoscope.h"
 #include "wheatstone/app/rotoscope_state_file.h"
-#include "wheatstone/image/opencv_internal.h"
+#include "wheatstone/image/mat_opencv.h"
 #include "wheatstone/measures/film_measures.h"
 #include "wheatstone/synthetic/synthetic_film.h"
 

@@ -8,7 +8,7 @@
 #include <functional>
 #include <mutex>
 
-#include "wheatstone/app/gallery.h"
+#include "wheatstone/app/gallery_internal.h"
 #include "wheatstone/depth/convergence.h"
 #include "wheatstone/display/anaglyph.h"
 #include "wheatstone/display/arrange.h"

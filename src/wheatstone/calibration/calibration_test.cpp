@@ -10,7 +10,7 @@
 #include "shared_data.h"
 #include "temporary_folder.h"
 #include "throws_error.h"
-#include "wheatstone/image/opencv_internal.h"
+#include "wheatstone/image/mat_opencv.h"
 
 namespace wheatstone::calibration_test {
 

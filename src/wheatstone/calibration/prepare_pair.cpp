@@ -11,7 +11,7 @@
 #include "wheatstone/calibration/rectify.h"
 #include "wheatstone/calibration/vertical_disparity_internal.h"
 #include "wheatstone/error.h"
-#include "wheatstone/image/opencv_internal.h"
+#include "wheatstone/image/mat_opencv.h"
 #include "wheatstone/matching/match_features.h"
 #include "wheatstone/matching/not_a_pair.h"
 #include "wheatstone/stereo/fitting_pair.h"

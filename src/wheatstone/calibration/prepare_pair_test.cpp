@@ -7,7 +7,7 @@
 
 #include "scenes/test_photographs.h"
 #include "throws_error.h"
-#include "wheatstone/image/opencv_internal.h"
+#include "wheatstone/image/mat_opencv.h"
 
 namespace wheatstone::prepare_pair_test {
 

@@ -10,7 +10,7 @@
 #include "wheatstone/calibration/rectify_internal.h"
 #include "wheatstone/calibration/vertical_disparity_internal.h"
 #include "wheatstone/error.h"
-#include "wheatstone/image/opencv_internal.h"
+#include "wheatstone/image/mat_opencv.h"
 
 namespace wheatstone {
 namespace {

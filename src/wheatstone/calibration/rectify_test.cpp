@@ -11,7 +11,7 @@
 #include "throws_error.h"
 #include "wheatstone/calibration/common_window_internal.h"
 #include "wheatstone/calibration/rectifying_map_internal.h"
-#include "wheatstone/image/opencv_internal.h"
+#include "wheatstone/image/mat_opencv.h"
 #include "wheatstone/matching/match.h"
 #include "wheatstone/matching/match_features.h"
 #include "wheatstone/measures/consistency.h"

@@ -8,7 +8,7 @@
 #include "wheatstone/calibration/common_window_internal.h"
 #include "wheatstone/calibration/rectifying_map_internal.h"
 #include "wheatstone/calibration/warp_picture_internal.h"
-#include "wheatstone/image/opencv_internal.h"
+#include "wheatstone/image/mat_opencv.h"
 
 namespace wheatstone {
 namespace {

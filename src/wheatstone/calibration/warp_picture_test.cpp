@@ -5,7 +5,7 @@
 #include "scenes/test_photographs.h"
 #include "wheatstone/calibration/rectifying_map.h"
 #include "wheatstone/calibration/warp_picture_internal.h"
-#include "wheatstone/image/opencv_internal.h"
+#include "wheatstone/image/mat_opencv.h"
 
 namespace wheatstone::warp_picture_test {
 

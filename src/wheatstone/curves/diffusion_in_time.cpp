@@ -3,7 +3,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "wheatstone/curves/diffusion_lines_internal.h"
-#include "wheatstone/image/opencv_internal.h"
+#include "wheatstone/image/mat_opencv.h"
 #include "wheatstone/motion/fitting_scene.h"
 
 namespace wheatstone {

@@ -2,7 +2,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "wheatstone/curves/edge_chains_internal.h"
-#include "wheatstone/image/opencv_internal.h"
+#include "wheatstone/image/mat_opencv.h"
 #include "wheatstone/motion/flow.h"
 
 namespace wheatstone {

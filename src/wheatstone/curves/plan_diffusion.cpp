@@ -5,7 +5,6 @@
 #include "wheatstone/curves/diffusion_lines_internal.h"
 #include "wheatstone/image/grain.h"
 #include "wheatstone/motion/fitting_scene.h"
-#include "wheatstone/regions/plan_regions_internal.h"
 #include "wheatstone/stereo/occlusion.h"
 
 namespace wheatstone {

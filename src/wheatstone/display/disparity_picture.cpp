@@ -5,7 +5,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "wheatstone/depth/convergence.h"
-#include "wheatstone/image/opencv_internal.h"
+#include "wheatstone/image/mat_opencv.h"
 
 namespace wheatstone {
 namespace {

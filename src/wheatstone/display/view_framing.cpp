@@ -8,7 +8,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "wheatstone/error.h"
-#include "wheatstone/image/opencv_internal.h"
+#include "wheatstone/image/mat_opencv.h"
 
 namespace wheatstone {
 

@@ -1,6 +1,6 @@
 #include <system_error>
 
-#include "wheatstone/files/followed_path_internal.h"
+#include "wheatstone/files/followed_path.h"
 
 namespace wheatstone {
 

@@ -5,7 +5,7 @@
 #include <system_error>
 
 #include "wheatstone/error.h"
-#include "wheatstone/files/followed_path_internal.h"
+#include "wheatstone/files/followed_path.h"
 
 namespace wheatstone {
 

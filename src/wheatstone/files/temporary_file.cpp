@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "wheatstone/error.h"
-#include "wheatstone/files/followed_path_internal.h"
+#include "wheatstone/files/followed_path.h"
 
 namespace wheatstone {
 namespace {

@@ -1,8 +1,8 @@
-#include "wheatstone/image/cielab.h"
+#include "wheatstone/image/cielab_internal.h"
 
 #include <cmath>
 
-#include "wheatstone/image/cielab_internal.h"
+#include "wheatstone/image/cielab_opencv.h"
 #include "wheatstone/image/srgb.h"
 
 namespace wheatstone {

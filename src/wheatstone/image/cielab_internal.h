@@ -1,10 +1,15 @@
 #pragma once
 
-#include <opencv2/core.hpp>
+#include "wheatstone/image/image.h"
 
 namespace wheatstone {
 
-/// The L*, a* and b* (image/cielab.h) of a picture, 8-bit RGB, as three channels of 32-bit float.
-cv::Mat cielab_of(const cv::Mat& rgb);
+/// CIE L*a*b* for the white of sRGB, D65: lightness 0..100, and green to red and blue to yellow, about -110..110.
+struct Cielab {
+  float lightness = 0, a = 0, b = 0;
+};
+
+/// Of an sRGB colour (CIE 15; IEC 61966-2-1).
+Cielab cielab_of(Rgb8 colour);
 
 }  // namespace wheatstone

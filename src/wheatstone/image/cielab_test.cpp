@@ -1,4 +1,4 @@
-#include "wheatstone/image/cielab.h"
+#include "wheatstone/image/cielab_internal.h"
 
 #include <gtest/gtest.h>
 

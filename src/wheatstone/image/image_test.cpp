@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "wheatstone/image/opencv_internal.h"
+#include "wheatstone/image/mat_opencv.h"
 
 namespace wheatstone::image_test {
 

@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "wheatstone/image/opencv_internal.h"
-#include "wheatstone/image/shrunk_internal.h"
+#include "wheatstone/image/mat_opencv.h"
+#include "wheatstone/image/shrunk_opencv.h"
 #include "wheatstone/matching/block_agreement.h"
 
 namespace wheatstone {

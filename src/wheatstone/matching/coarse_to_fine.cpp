@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "wheatstone/image/opencv_internal.h"
+#include "wheatstone/image/mat_opencv.h"
 #include "wheatstone/matching/confirm_internal.h"
 #include "wheatstone/matching/enlarge_internal.h"
 #include "wheatstone/matching/fill_in_picture_internal.h"

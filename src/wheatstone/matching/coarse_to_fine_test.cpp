@@ -11,7 +11,7 @@
 #include <limits>
 #include <opencv2/imgproc.hpp>
 
-#include "wheatstone/image/opencv_internal.h"
+#include "wheatstone/image/mat_opencv.h"
 #include "wheatstone/matching/fill_in_picture_internal.h"
 #include "wheatstone/random.h"
 #include "wheatstone/synthetic/synthetic_still.h"

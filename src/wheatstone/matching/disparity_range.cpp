@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "wheatstone/depth/convergence.h"
-#include "wheatstone/image/opencv_internal.h"
-#include "wheatstone/image/shrunk_internal.h"
+#include "wheatstone/image/mat_opencv.h"
+#include "wheatstone/image/shrunk_opencv.h"
 #include "wheatstone/matching/binary_descriptors_internal.h"
 #include "wheatstone/matching/confirm_internal.h"
 #include "wheatstone/matching/match.h"

@@ -1,4 +1,4 @@
-#include "wheatstone/matching/map_flaws.h"
+#include "wheatstone/matching/map_flaws_internal.h"
 
 #include <tbb/parallel_for.h>
 
@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "wheatstone/depth/convergence.h"
-#include "wheatstone/image/opencv_internal.h"
+#include "wheatstone/image/mat_opencv.h"
 
 namespace wheatstone {
 namespace {

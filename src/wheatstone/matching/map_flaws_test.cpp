@@ -1,4 +1,4 @@
-#include "wheatstone/matching/map_flaws.h"
+#include "wheatstone/matching/map_flaws_internal.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

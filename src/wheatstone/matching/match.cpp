@@ -15,7 +15,7 @@
 
 #include "wheatstone/error.h"
 #include "wheatstone/files/module.h"
-#include "wheatstone/image/opencv_internal.h"
+#include "wheatstone/image/mat_opencv.h"
 #include "wheatstone/matching/coarse_to_fine_internal.h"
 #include "wheatstone/matching/confirm_internal.h"
 #include "wheatstone/matching/match_internal.h"

@@ -9,9 +9,9 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
-#include "wheatstone/image/opencv_internal.h"
-#include "wheatstone/image/shrunk_internal.h"
-#include "wheatstone/matching/map_flaws.h"
+#include "wheatstone/image/mat_opencv.h"
+#include "wheatstone/image/shrunk_opencv.h"
+#include "wheatstone/matching/map_flaws_internal.h"
 #include "wheatstone/matching/seen_disparities_internal.h"
 #include "wheatstone/percentile.h"
 

@@ -17,10 +17,6 @@ inline constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
 Image<float> match_with_opencv(const cv::Mat& own, const cv::Mat& other, const DisparityRange& range,
                                const MatchOptions& options);
 
-/// SGBM 3WAY as measures use it, with the parameters of OpenCV's example: block 5, left-right check 1, uniqueness 10 %,
-/// speckles 100 pixels within 2.
-Image<float> match_plain_sgbm(const cv::Mat& own, const cv::Mat& other, const DisparityRange& range);
-
 /// The same by dynamic programming, for two luminance pictures: CV_8UC1.
 Image<float> match_scan_lines(const cv::Mat& own, const cv::Mat& other, const DisparityRange& range);
 

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "wheatstone/image/opencv_internal.h"
+#include "wheatstone/image/mat_opencv.h"
 #include "wheatstone/matching/confirm_internal.h"
 #include "wheatstone/matching/enlarge_internal.h"
 #include "wheatstone/matching/levels_internal.h"

@@ -3,9 +3,9 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
-#include "wheatstone/image/opencv_internal.h"
+#include "wheatstone/image/mat_opencv.h"
 #include "wheatstone/matching/match_internal.h"
-#include "wheatstone/matching/pair_network_internal.h"
+#include "wheatstone/matching/pair_network_opencv.h"
 
 namespace wheatstone {
 namespace {

@@ -3,9 +3,10 @@
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "wheatstone/image/opencv_internal.h"
+#include "wheatstone/image/mat_opencv.h"
 #include "wheatstone/matching/confirm_internal.h"
 #include "wheatstone/matching/match_internal.h"
+#include "wheatstone/matching/plain_sgbm_opencv.h"
 
 namespace wheatstone {
 namespace {

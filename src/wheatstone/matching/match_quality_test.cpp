@@ -8,8 +8,8 @@
 #include <numbers>
 
 #include "shared_data.h"
-#include "wheatstone/image/opencv_internal.h"
-#include "wheatstone/matching/map_flaws.h"
+#include "wheatstone/image/mat_opencv.h"
+#include "wheatstone/matching/map_flaws_internal.h"
 #include "wheatstone/matching/match.h"
 #include "wheatstone/matching/match_internal.h"
 #include "wheatstone/matching/match_reliability_internal.h"

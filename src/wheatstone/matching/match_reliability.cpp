@@ -8,8 +8,8 @@
 #include <limits>
 #include <opencv2/imgproc.hpp>
 
-#include "wheatstone/image/opencv_internal.h"
-#include "wheatstone/image/shrunk_internal.h"
+#include "wheatstone/image/mat_opencv.h"
+#include "wheatstone/image/shrunk_opencv.h"
 #include "wheatstone/matching/confirm_internal.h"
 
 namespace wheatstone {

@@ -4,7 +4,7 @@
 #include <limits>
 #include <vector>
 
-#include "wheatstone/image/opencv_internal.h"
+#include "wheatstone/image/mat_opencv.h"
 #include "wheatstone/matching/match_internal.h"
 
 namespace wheatstone {

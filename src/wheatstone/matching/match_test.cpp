@@ -12,7 +12,7 @@
 
 #include "shared_data.h"
 #include "wheatstone/error.h"
-#include "wheatstone/image/opencv_internal.h"
+#include "wheatstone/image/mat_opencv.h"
 #include "wheatstone/matching/match_internal.h"
 #include "wheatstone/measures/consistency.h"
 #include "wheatstone/pictures/disparity_file.h"

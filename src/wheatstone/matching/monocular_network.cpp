@@ -12,7 +12,7 @@
 
 #include "wheatstone/error.h"
 #include "wheatstone/files/whole_file.h"
-#include "wheatstone/image/opencv_internal.h"
+#include "wheatstone/image/mat_opencv.h"
 #include "wheatstone/matching/network_inputs_internal.h"
 #include "wheatstone/matching/network_picture_internal.h"
 

@@ -6,8 +6,8 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
-#include "wheatstone/image/opencv_internal.h"
-#include "wheatstone/image/shrunk_internal.h"
+#include "wheatstone/image/mat_opencv.h"
+#include "wheatstone/image/shrunk_opencv.h"
 #include "wheatstone/matching/block_agreement.h"
 
 namespace wheatstone {

@@ -1,4 +1,4 @@
-#include "wheatstone/matching/pair_network_internal.h"
+#include "wheatstone/matching/pair_network_opencv.h"
 
 #include <fmt/format.h>
 

@@ -12,7 +12,7 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
-#include "wheatstone/image/opencv_internal.h"
+#include "wheatstone/image/mat_opencv.h"
 #include "wheatstone/random.h"
 #include "wheatstone/stereo/stereo_pair.h"
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "wheatstone/error.h"
-#include "wheatstone/image/opencv_internal.h"
+#include "wheatstone/image/mat_opencv.h"
 #include "wheatstone/measures/consistency_internal.h"
 
 namespace wheatstone {

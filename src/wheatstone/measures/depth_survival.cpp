@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "wheatstone/image/known_values.h"
-#include "wheatstone/image/opencv_internal.h"
-#include "wheatstone/matching/match_internal.h"
+#include "wheatstone/image/mat_opencv.h"
+#include "wheatstone/matching/plain_sgbm_opencv.h"
 #include "wheatstone/measures/consistency.h"
 #include "wheatstone/measures/consistency_internal.h"
 

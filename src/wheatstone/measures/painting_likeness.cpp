@@ -8,8 +8,8 @@
 #include <opencv2/imgproc.hpp>
 
 #include "wheatstone/error.h"
-#include "wheatstone/image/cielab_internal.h"
-#include "wheatstone/image/opencv_internal.h"
+#include "wheatstone/image/cielab_opencv.h"
+#include "wheatstone/image/mat_opencv.h"
 
 namespace wheatstone {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "throws_error.h"
 #include "wheatstone/error.h"
-#include "wheatstone/image/opencv_internal.h"
+#include "wheatstone/image/mat_opencv.h"
 #include "wheatstone/synthetic/synthetic_still.h"
 
 namespace wheatstone::painting_likeness_test {

@@ -5,7 +5,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "shared_data.h"
-#include "wheatstone/image/opencv_internal.h"
+#include "wheatstone/image/mat_opencv.h"
 #include "wheatstone/measures/consistency.h"
 #include "wheatstone/measures/depth_survival.h"
 #include "wheatstone/pictures/disparity_file.h"

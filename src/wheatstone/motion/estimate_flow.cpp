@@ -8,7 +8,7 @@
 #include <opencv2/video/tracking.hpp>
 
 #include "wheatstone/error.h"
-#include "wheatstone/image/opencv_internal.h"
+#include "wheatstone/image/mat_opencv.h"
 #include "wheatstone/motion/flow.h"
 #include "wheatstone/motion/flow_network_internal.h"
 

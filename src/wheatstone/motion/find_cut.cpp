@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "wheatstone/error.h"
-#include "wheatstone/image/opencv_internal.h"
+#include "wheatstone/image/mat_opencv.h"
 #include "wheatstone/motion/flow.h"
 
 namespace wheatstone {

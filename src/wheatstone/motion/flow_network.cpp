@@ -2,9 +2,9 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-#include "wheatstone/image/opencv_internal.h"
-#include "wheatstone/image/shrunk_internal.h"
-#include "wheatstone/matching/pair_network_internal.h"
+#include "wheatstone/image/mat_opencv.h"
+#include "wheatstone/image/shrunk_opencv.h"
+#include "wheatstone/matching/pair_network_opencv.h"
 #include "wheatstone/motion/flow_network_internal.h"
 
 namespace wheatstone {

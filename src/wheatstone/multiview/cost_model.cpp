@@ -1,4 +1,4 @@
-#include "wheatstone/multiview/cost_model.h"
+#include "wheatstone/multiview/cost_model_internal.h"
 
 #include <fmt/format.h>
 

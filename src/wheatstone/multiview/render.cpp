@@ -9,7 +9,7 @@
 
 #include "wheatstone/error.h"
 #include "wheatstone/gpu/gpu.h"
-#include "wheatstone/multiview/cost_model.h"
+#include "wheatstone/multiview/cost_model_internal.h"
 #include "wheatstone/multiview/make_slices.h"
 #include "wheatstone/multiview/render_slices.h"
 #include "wheatstone/multiview/renderers_internal.h"

@@ -11,7 +11,7 @@
 #include "psnr.h"
 #include "throws_error.h"
 #include "wheatstone/measures/view_measures.h"
-#include "wheatstone/multiview/cost_model.h"
+#include "wheatstone/multiview/cost_model_internal.h"
 #include "wheatstone/multiview/make_slices.h"
 #include "wheatstone/multiview/naive_view.h"
 #include "wheatstone/multiview/render.h"

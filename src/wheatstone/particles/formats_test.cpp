@@ -13,7 +13,7 @@
 #include "throws_error.h"
 #include "wheatstone/files/whole_file.h"
 #include "wheatstone/particles/cloud_source.h"
-#include "wheatstone/particles/gas_temperature.h"
+#include "wheatstone/particles/gas_temperature_internal.h"
 
 namespace wheatstone::formats_test {
 

@@ -16,7 +16,7 @@
 #include "wheatstone/files/plain_file.h"
 #include "wheatstone/particles/columns_internal.h"
 #include "wheatstone/particles/formats_internal.h"
-#include "wheatstone/particles/gas_temperature.h"
+#include "wheatstone/particles/gas_temperature_internal.h"
 #include "wheatstone/particles/particle_rows_internal.h"
 #include "wheatstone/particles/snapshot_internal.h"
 

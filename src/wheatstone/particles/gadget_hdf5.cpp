@@ -11,7 +11,7 @@
 
 #include "wheatstone/error.h"
 #include "wheatstone/particles/columns_internal.h"
-#include "wheatstone/particles/gas_temperature.h"
+#include "wheatstone/particles/gas_temperature_internal.h"
 #include "wheatstone/particles/hdf5_internal.h"
 #include "wheatstone/particles/particle_rows_internal.h"
 #include "wheatstone/particles/snapshot_internal.h"

@@ -12,7 +12,7 @@
 #include "throws_error.h"
 #include "wheatstone/files/whole_file.h"
 #include "wheatstone/particles/cloud_source.h"
-#include "wheatstone/particles/gas_temperature.h"
+#include "wheatstone/particles/gas_temperature_internal.h"
 #include "wheatstone/particles/hdf5_internal.h"
 
 namespace wheatstone::hdf5_formats_test {

@@ -9,7 +9,7 @@
 #include "wheatstone/error.h"
 #include "wheatstone/files/temporary_file.h"
 #include "wheatstone/particles/cosmology.h"
-#include "wheatstone/particles/gas_temperature.h"
+#include "wheatstone/particles/gas_temperature_internal.h"
 #include "wheatstone/particles/hdf5_internal.h"
 
 namespace wheatstone {

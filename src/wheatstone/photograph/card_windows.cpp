@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "wheatstone/image/opencv_internal.h"
-#include "wheatstone/image/shrunk_internal.h"
+#include "wheatstone/image/mat_opencv.h"
+#include "wheatstone/image/shrunk_opencv.h"
 #include "wheatstone/matching/block_agreement.h"
 #include "wheatstone/photograph/card_windows_internal.h"
 

@@ -13,11 +13,10 @@
 #include "wheatstone/photograph/xmp_internal.h"
 #include "wheatstone/pictures/depth_file.h"
 #include "wheatstone/pictures/heif_pictures.h"
-#include "wheatstone/pictures/heif_pictures_internal.h"
-#include "wheatstone/pictures/jpeg_internal.h"
-#include "wheatstone/pictures/open_picture_internal.h"
+#include "wheatstone/pictures/jpeg.h"
+#include "wheatstone/pictures/open_picture.h"
 #include "wheatstone/pictures/read_image.h"
-#include "wheatstone/pictures/upright_internal.h"
+#include "wheatstone/pictures/upright.h"
 
 namespace wheatstone {
 namespace {

@@ -5,7 +5,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "scenes/test_photographs.h"
-#include "wheatstone/image/opencv_internal.h"
+#include "wheatstone/image/mat_opencv.h"
 #include "wheatstone/matching/block_agreement.h"
 
 namespace wheatstone::find_layout_test {

@@ -15,10 +15,10 @@
 #include "wheatstone/files/utf8.h"
 #include "wheatstone/photograph/jpeg_segments_internal.h"
 #include "wheatstone/photograph/xmp_internal.h"
-#include "wheatstone/pictures/heif_pictures_internal.h"
-#include "wheatstone/pictures/jpeg_internal.h"
-#include "wheatstone/pictures/open_picture_internal.h"
-#include "wheatstone/pictures/png_chunks_internal.h"
+#include "wheatstone/pictures/heif_pictures.h"
+#include "wheatstone/pictures/jpeg.h"
+#include "wheatstone/pictures/open_picture.h"
+#include "wheatstone/pictures/png_chunks.h"
 
 namespace wheatstone {
 namespace {

@@ -9,10 +9,10 @@
 #include <utility>
 
 #include "wheatstone/image/known_values.h"
-#include "wheatstone/pictures/jpeg_internal.h"
-#include "wheatstone/pictures/open_picture_internal.h"
+#include "wheatstone/pictures/jpeg.h"
+#include "wheatstone/pictures/open_picture.h"
 #include "wheatstone/pictures/png_reader_internal.h"
-#include "wheatstone/pictures/portable_float_map.h"
+#include "wheatstone/pictures/portable_float_map_internal.h"
 #include "wheatstone/pictures/stored_channel_internal.h"
 
 namespace wheatstone {

@@ -1,6 +1,6 @@
 #include "wheatstone/pictures/describe_image.h"
 
-#include "wheatstone/pictures/open_picture_internal.h"
+#include "wheatstone/pictures/open_picture.h"
 
 namespace wheatstone {
 

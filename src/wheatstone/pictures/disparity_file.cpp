@@ -13,9 +13,9 @@
 #include "wheatstone/image/known_values.h"
 #include "wheatstone/pictures/encode_png_internal.h"
 #include "wheatstone/pictures/picture_file.h"
-#include "wheatstone/pictures/png_chunks_internal.h"
+#include "wheatstone/pictures/png_chunks.h"
 #include "wheatstone/pictures/png_reader_internal.h"
-#include "wheatstone/pictures/portable_float_map.h"
+#include "wheatstone/pictures/portable_float_map_internal.h"
 #include "wheatstone/pictures/stored_channel_internal.h"
 
 namespace wheatstone {

@@ -12,7 +12,7 @@
 #include "throws_error.h"
 #include "wheatstone/error.h"
 #include "wheatstone/files/whole_file.h"
-#include "wheatstone/pictures/portable_float_map.h"
+#include "wheatstone/pictures/portable_float_map_internal.h"
 
 namespace wheatstone::disparity_file_test {
 

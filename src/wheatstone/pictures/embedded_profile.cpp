@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "wheatstone/pictures/heif_pictures_internal.h"
+#include "wheatstone/pictures/heif_pictures.h"
 
 namespace wheatstone {
 namespace {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "wheatstone/files/deflate.h"
-#include "wheatstone/pictures/png_chunks_internal.h"
+#include "wheatstone/pictures/png_chunks.h"
 
 namespace wheatstone {
 namespace {

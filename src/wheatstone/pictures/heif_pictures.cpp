@@ -12,8 +12,7 @@
 
 #include "wheatstone/error.h"
 #include "wheatstone/pictures/colour_profile_internal.h"
-#include "wheatstone/pictures/heif_pictures_internal.h"
-#include "wheatstone/pictures/open_picture_internal.h"
+#include "wheatstone/pictures/open_picture.h"
 
 namespace wheatstone {
 namespace {

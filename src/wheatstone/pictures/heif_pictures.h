@@ -29,6 +29,15 @@ struct HeifDepth {
 /// Throws Error{bad_input} where the file or its depth image is damaged.
 std::optional<HeifDepth> read_heif_depth(const std::filesystem::path& path);
 
+/// Whether the bytes begin as a HEIF, HEIC or AVIF file does.
+bool is_heif(std::string_view bytes);
+
+/// The ICC profile of a HEIF file's primary picture; empty where there is none.
+std::string heif_profile(std::string_view bytes);
+
+/// The EXIF data of a HEIF file's primary picture, from their TIFF header on; empty where there are none.
+std::string heif_exif(std::string_view bytes);
+
 /// The version of the library that reads them, as "1.15.1".
 std::string heif_version();
 

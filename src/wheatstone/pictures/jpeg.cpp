@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "wheatstone/pictures/exif_orientation_internal.h"
-#include "wheatstone/pictures/jpeg_internal.h"
+#include "wheatstone/pictures/jpeg.h"
 
 namespace wheatstone {
 namespace {

@@ -1,4 +1,4 @@
-#include "wheatstone/pictures/jpeg_internal.h"
+#include "wheatstone/pictures/jpeg.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -3,7 +3,7 @@
 #include <opencv2/imgproc.hpp>
 #include <opencv2/objdetect.hpp>
 
-#include "wheatstone/image/opencv_internal.h"
+#include "wheatstone/image/mat_opencv.h"
 #include "wheatstone/pictures/faces_module_internal.h"
 
 extern "C" bool wheatstone_find_faces(const std::string& cascade, wheatstone::ImageView<const wheatstone::Rgb8> picture,

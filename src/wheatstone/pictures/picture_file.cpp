@@ -12,7 +12,7 @@
 #include "wheatstone/files/plain_file.h"
 #include "wheatstone/pictures/encode_png_internal.h"
 #include "wheatstone/pictures/exr_header_internal.h"
-#include "wheatstone/pictures/jpeg_internal.h"
+#include "wheatstone/pictures/jpeg.h"
 #include "wheatstone/pictures/picture_module_internal.h"
 
 namespace wheatstone {

@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <string_view>
 
-#include "wheatstone/pictures/jpeg_internal.h"
-#include "wheatstone/pictures/png_chunks_internal.h"
+#include "wheatstone/pictures/jpeg.h"
+#include "wheatstone/pictures/png_chunks.h"
 
 namespace wheatstone {
 namespace {

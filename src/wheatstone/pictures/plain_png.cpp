@@ -1,7 +1,7 @@
 #include <algorithm>
 
 #include "wheatstone/pictures/plain_png_internal.h"
-#include "wheatstone/pictures/png_chunks_internal.h"
+#include "wheatstone/pictures/png_chunks.h"
 
 namespace wheatstone {
 namespace {

@@ -1,6 +1,6 @@
 #include <zlib.h>
 
-#include "wheatstone/pictures/png_chunks_internal.h"
+#include "wheatstone/pictures/png_chunks.h"
 
 namespace wheatstone {
 

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "wheatstone/pictures/exif_orientation_internal.h"
-#include "wheatstone/pictures/png_chunks_internal.h"
+#include "wheatstone/pictures/png_chunks.h"
 
 namespace wheatstone {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "temporary_folder.h"
 #include "wheatstone/pictures/exif_orientation_internal.h"
-#include "wheatstone/pictures/png_chunks_internal.h"
+#include "wheatstone/pictures/png_chunks.h"
 
 namespace wheatstone::png_reader_test {
 

@@ -1,4 +1,4 @@
-#include "wheatstone/pictures/portable_float_map.h"
+#include "wheatstone/pictures/portable_float_map_internal.h"
 
 #include <fmt/format.h>
 

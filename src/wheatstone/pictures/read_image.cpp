@@ -14,8 +14,8 @@
 #include "wheatstone/pictures/animated_png_internal.h"
 #include "wheatstone/pictures/colour_profile_internal.h"
 #include "wheatstone/pictures/embedded_profile_internal.h"
-#include "wheatstone/pictures/open_picture_internal.h"
-#include "wheatstone/pictures/upright_internal.h"
+#include "wheatstone/pictures/open_picture.h"
+#include "wheatstone/pictures/upright.h"
 
 namespace wheatstone {
 namespace {

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "wheatstone/error.h"
-#include "wheatstone/pictures/jpeg_internal.h"
-#include "wheatstone/pictures/open_picture_internal.h"
+#include "wheatstone/pictures/jpeg.h"
+#include "wheatstone/pictures/open_picture.h"
 #include "wheatstone/pictures/plain_png_internal.h"
 #include "wheatstone/pictures/png_reader_internal.h"
 #include "wheatstone/pictures/stored_channel_internal.h"

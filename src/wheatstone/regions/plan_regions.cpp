@@ -4,7 +4,7 @@
 #include <tuple>
 
 #include "wheatstone/image/grain.h"
-#include "wheatstone/image/opencv_internal.h"
+#include "wheatstone/image/mat_opencv.h"
 #include "wheatstone/motion/fitting_scene.h"
 #include "wheatstone/random.h"
 #include "wheatstone/regions/plan_regions_internal.h"

@@ -9,7 +9,7 @@
 #include <tuple>
 #include <vector>
 
-#include "wheatstone/image/opencv_internal.h"
+#include "wheatstone/image/mat_opencv.h"
 #include "wheatstone/regions/colour_palette_internal.h"
 #include "wheatstone/regions/outline_internal.h"
 #include "wheatstone/regions/region_map_internal.h"

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 
-#include "wheatstone/image/opencv_internal.h"
+#include "wheatstone/image/mat_opencv.h"
 #include "wheatstone/image/orientation_field.h"
 #include "wheatstone/marks/spline.h"
 #include "wheatstone/motion/flow.h"

@@ -1,4 +1,4 @@
-#include "wheatstone/stereo/framed_pair.h"
+#include "wheatstone/stereo/framed_pair_internal.h"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "wheatstone/error.h"
-#include "wheatstone/image/opencv_internal.h"
+#include "wheatstone/image/mat_opencv.h"
 #include "wheatstone/stereo/geometry_from_disparity.h"
 
 namespace wheatstone {

@@ -1,4 +1,4 @@
-#include "wheatstone/stereo/framed_pair.h"
+#include "wheatstone/stereo/framed_pair_internal.h"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "wheatstone/image/opencv_internal.h"
+#include "wheatstone/image/mat_opencv.h"
 
 namespace wheatstone {
 namespace {

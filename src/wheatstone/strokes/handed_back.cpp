@@ -1,4 +1,4 @@
-#include "wheatstone/strokes/handed_back.h"
+#include "wheatstone/strokes/handed_back_internal.h"
 
 namespace wheatstone {
 namespace {

@@ -10,7 +10,7 @@
 #include "wheatstone/marks/residual.h"
 #include "wheatstone/random.h"
 #include "wheatstone/strokes/depth_edges_internal.h"
-#include "wheatstone/strokes/handed_back.h"
+#include "wheatstone/strokes/handed_back_internal.h"
 #include "wheatstone/strokes/layer_order.h"
 
 namespace wheatstone {

@@ -13,7 +13,7 @@
 #include "wheatstone/stereo/view_scale.h"
 #include "wheatstone/strokes/bare_pixels_internal.h"
 #include "wheatstone/strokes/depth_edges_internal.h"
-#include "wheatstone/strokes/handed_back.h"
+#include "wheatstone/strokes/handed_back_internal.h"
 #include "wheatstone/strokes/jitter_internal.h"
 #include "wheatstone/strokes/layer_order.h"
 #include "wheatstone/strokes/layer_plan.h"

@@ -17,7 +17,7 @@
 #include "wheatstone/strokes/bare_pixels_internal.h"
 #include "wheatstone/strokes/carried_points_internal.h"
 #include "wheatstone/strokes/carry_strokes_internal.h"
-#include "wheatstone/strokes/handed_back.h"
+#include "wheatstone/strokes/handed_back_internal.h"
 #include "wheatstone/strokes/layer_order.h"
 #include "wheatstone/strokes/misplaced_strokes_internal.h"
 #include "wheatstone/strokes/missing_strokes_internal.h"

@@ -8,7 +8,7 @@
 #include <limits>
 #include <opencv2/imgproc.hpp>
 
-#include "wheatstone/image/opencv_internal.h"
+#include "wheatstone/image/mat_opencv.h"
 #include "wheatstone/stereo/occlusion.h"
 #include "wheatstone/stereo/view_scale.h"
 #include "wheatstone/strokes/layer_order.h"

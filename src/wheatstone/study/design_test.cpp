@@ -6,7 +6,7 @@
 #include <set>
 
 #include "throws_error.h"
-#include "wheatstone/study/latin_square.h"
+#include "wheatstone/study/latin_square_internal.h"
 #include "wheatstone/study/study_design.h"
 #include "wheatstone/study/trial_plan.h"
 

@@ -1,4 +1,4 @@
-#include "wheatstone/study/latin_square.h"
+#include "wheatstone/study/latin_square_internal.h"
 
 #include <algorithm>
 

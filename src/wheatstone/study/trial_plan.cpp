@@ -9,7 +9,7 @@
 
 #include "wheatstone/error.h"
 #include "wheatstone/study/draw_lots_internal.h"
-#include "wheatstone/study/latin_square.h"
+#include "wheatstone/study/latin_square_internal.h"
 
 namespace wheatstone {
 namespace {

@@ -10,7 +10,7 @@
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "wheatstone/image/opencv_internal.h"
+#include "wheatstone/image/mat_opencv.h"
 #include "wheatstone/image/srgb.h"
 #include "wheatstone/random.h"
 #include "wheatstone/synthetic/synthetic_still_view_internal.h"

@@ -6,7 +6,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "throws_error.h"
-#include "wheatstone/image/opencv_internal.h"
+#include "wheatstone/image/mat_opencv.h"
 
 namespace wheatstone::synthetic_film_test {
 

@@ -11,7 +11,7 @@
 #include "throws_error.h"
 #include "wheatstone/pictures/write_image.h"
 #include "wheatstone/stereo/stereo_layout.h"
-#include "wheatstone/video/guess_layout.h"
+#include "wheatstone/video/guess_layout_internal.h"
 #include "wheatstone/video/picture_conversion_internal.h"
 
 namespace wheatstone::film_reader_test {

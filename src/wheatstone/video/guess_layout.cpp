@@ -1,4 +1,4 @@
-#include "wheatstone/video/guess_layout.h"
+#include "wheatstone/video/guess_layout_internal.h"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <opencv2/imgproc.hpp>
 #include <optional>
 
-#include "wheatstone/image/opencv_internal.h"
+#include "wheatstone/image/mat_opencv.h"
 
 namespace wheatstone {
 namespace {

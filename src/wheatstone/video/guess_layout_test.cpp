@@ -1,4 +1,4 @@
-#include "wheatstone/video/guess_layout.h"
+#include "wheatstone/video/guess_layout_internal.h"
 
 #include <gtest/gtest.h>
 

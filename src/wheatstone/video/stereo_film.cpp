@@ -8,7 +8,7 @@
 
 #include "wheatstone/error.h"
 #include "wheatstone/stereo/packed_pair.h"
-#include "wheatstone/video/guess_layout.h"
+#include "wheatstone/video/guess_layout_internal.h"
 
 namespace wheatstone {
 namespace {

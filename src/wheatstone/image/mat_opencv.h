@@ -1,6 +1,6 @@
 #pragma once
 
-// Wheatstone's images as OpenCV matrices and back, without a copy. Seen by .cpp files only, never installed.
+// Wheatstone's images as OpenCV matrices and back, without a copy. For .cpp files, never installed.
 
 #include <opencv2/core.hpp>
 
