@@ -13,6 +13,7 @@
 #include "display_argument.h"
 #include "film_argument.h"
 #include "slices_argument.h"
+#include "wheatstone/app/annotate.h"
 #include "wheatstone/app/particle_frames.h"
 #include "wheatstone/app/render_film.h"
 #include "wheatstone/app/render_model_file.h"
@@ -91,11 +92,24 @@ FrameSource frames_of_scene(const RenderArguments& arguments, const RenderPartic
   return [frames](int frame, const Progress& of_frame) { return frames->frame(frame, of_frame); };
 }
 
+/// The frames with what --annotate draws into their views.
+FrameSource annotated(FrameSource source) {
+  check_annotation_font();
+  return [source = std::move(source)](int frame, const Progress& progress) {
+    RenderedParticles rendered = source(frame, progress);
+    for (std::string& note : annotate(rendered, rendered.rendered.views, ShownAs::film))
+      rendered.warnings.push_back(std::move(note));
+    return rendered;
+  };
+}
+
 Report report_of(const RenderArguments& arguments, const RenderedFilm& film, const Session& session) {
   const RenderedViews& rendered = film.last.rendered;
   std::string frames = fmt::format("rendered         {} frames", film.frames);
   if (film.resumed_frames > 0) frames += fmt::format(", the first {} by an earlier run", film.resumed_frames);
   if (film.skipped_frames > 0) frames += fmt::format(", of which {} were there", film.skipped_frames);
+  std::vector<std::string> notes = film.notes;
+  notes.insert(notes.end(), film.last.warnings.begin(), film.last.warnings.end());
   const bool tells_method = session.verbose && (film.last.particles > 0 || film.last.triangles > 0);
   return {{{"output", arguments.output},
            {"frames", film.frames, frames},
@@ -109,7 +123,7 @@ Report report_of(const RenderArguments& arguments, const RenderedFilm& film, con
            {"least", film.last.least},
            {"most", film.last.most},
            {"ranks", session.ranks.count()},
-           {"notes", film.notes, lines("note             ", film.notes)},
+           {"notes", notes, lines("note             ", notes)},
            only_text(fmt::format("written to       {}", arguments.output))}};
 }
 
@@ -144,9 +158,9 @@ Report run_render_film(const RenderArguments& given, const Session& session) {
   film.whole_frames =
       reads_slices(arguments) || reads_model(arguments) || arguments.film.distribute == Distribution::frames;
   if (!film.whole_frames) options.rendering.ranks = session.ranks;
-  const FrameSource source = reads_slices(arguments)
-                                 ? frames_of_slices(arguments, options, film.frames)
-                                 : frames_of_scene(arguments, options, film.frames, session.progress);
+  FrameSource source = reads_slices(arguments) ? frames_of_slices(arguments, options, film.frames)
+                                               : frames_of_scene(arguments, options, film.frames, session.progress);
+  if (arguments.annotate) source = annotated(std::move(source));
   if (!arguments.film.frame_range.empty())
     film.only = parse_frame_range(arguments.film.frame_range, film.frames, "--frame-range");
   tell_what_film_keeps(arguments.output);

@@ -377,9 +377,8 @@ Rows method_rows(RenderArguments& a) {
   return under(
       method_heading,
       {row("--annotate", flag(a.annotate),
-           "Draw a scale bar, the colours with their limits and units, and the redshift into each view",
-           {beside_particles(a), on_film(a),
-            when([&a] { return !a.interleave.empty(); }, "with --interleave; it works on views")}),
+           "Draw a scale bar, the colours with their numbers and units, and the redshift into each view",
+           {beside_particles(a), when([&a] { return !a.interleave.empty(); }, "with --interleave; it works on views")}),
        row("--method", choice(rendering.method, methods), "Rendering method; --verbose tells which was used",
            {slices, when([&a] { return makes_slices(a) && is_without_planes(a) && !reads_model(a); },
                          "with --save-slices or --interleave; these render depth planes")}),

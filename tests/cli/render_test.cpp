@@ -131,18 +131,41 @@ TEST(RenderCommand, WritesNumbersWithTheirUnits) {
   put_bytes(folder / "gas.csv", "x [kpc],y [kpc],z [kpc],mass,age,hsml\n0,0,0,3,10,1\n5,0,0,1,30,1\n0,0,5,1,50,1\n");
   const auto facts = nlohmann::json::parse(
       run_in(folder, {"render", "gas.csv", "--views", "1", "--size", "64x48", "--projection", "orthographic",
-                      "--quantity", "column-density", "--values", "n.fits", "--annotate", "-o", "a", "--json"})
+                      "--quantity", "column-density", "--values", "n.fits", "-o", "a", "--json"})
           .output);
-  EXPECT_EQ(facts["unit"], "code mass / kpc^2");
+  EXPECT_EQ(facts["unit"], "code_mass/kpc**2");
   EXPECT_TRUE(facts["warnings"].empty());
   const std::string fits = bytes_of(folder / "n.fits");
-  for (const char* keyword : {"CDELT1", "CUNIT1  = 'kpc", "BUNIT   = 'code mass / kpc^2'"})
+  for (const char* keyword : {"CDELT1", "CUNIT1  = 'kpc", "BUNIT   = 'code_mass/kpc**2'"})
     EXPECT_THAT(fits, testing::HasSubstr(keyword));
   run_in(folder, {"render", "gas.csv", "--views", "2", "--size", "64x48", "--quantity", "mean:age", "--values", "n.npy",
                   "-o", "b"});
   EXPECT_EQ(bytes_of(folder / "n_001.npy").size(), 128 + 4u * 64 * 48);
   run_in(folder, {"render", "gas.csv", "--views", "1", "--size", "64x48", "--values", "n.exr", "-o", "c"});
   EXPECT_EQ(read_disparity(folder / "n.exr").width(), 64);
+}
+
+TEST(RenderCommand, AnnotatesFilmsAndSaysWhatIsTooSmall) {
+  const TemporaryFolder folder;
+  const auto with = [&](const char* size, std::initializer_list<const char*> more) {
+    std::vector<std::string> words{"render", universe(), "--views", "1", "--frames", "2", "--size", size, "--json"};
+    words.insert(words.end(), more.begin(), more.end());
+    return nlohmann::json::parse(run_in(folder, words).output);
+  };
+  with("320x180", {"-o", "plain_%d.png"});
+  EXPECT_TRUE(with("320x180", {"--annotate", "-o", "told_%d.png"})["notes"].empty());
+  const Image<Rgb8> plain = read_image(folder / "plain_2.png"), told = read_image(folder / "told_2.png");
+  const auto differ_in = [&](int left, int top, int width, int height) {
+    int changed = 0;
+    for (int y = top; y < top + height; ++y)
+      for (int x = left; x < left + width; ++x) changed += plain(x, y) != told(x, y);
+    return changed;
+  };
+  EXPECT_GT(differ_in(0, 0, 80, 30), 50);        // the redshift
+  EXPECT_GT(differ_in(0, 130, 100, 50), 100);    // the scale bar
+  EXPECT_GT(differ_in(160, 120, 160, 60), 500);  // the colours
+  EXPECT_EQ(differ_in(100, 50, 60, 50), 0);
+  EXPECT_EQ(with("64x48", {"--annotate", "-o", "small_%d.png"})["notes"].size(), 2);
 }
 
 TEST(RenderCommand, RefusesNumbersThatThereAreNot) {

@@ -20,6 +20,9 @@ ParticleFrames::ParticleFrames(const std::string& input, const ParticleFramesOpt
   if (options_.count == 0) options_.count = series ? static_cast<int>(series->files.size()) : 1;
   if (series) series_.emplace(*std::move(series), choice_of(particles));
   survey(input, progress);
+  const CloudSource first = open_cloud(series_ ? series_->series().files.front() : input_, choice_of(particles));
+  units_ = units_of(first, particles, statistics_.has_mass);
+  redshift_ = first.redshift;
 }
 
 /// Learns what is held through the film.
@@ -104,8 +107,13 @@ RenderParticlesOptions options_of_frame(const ParticleFramesOptions& film, int n
 RenderedParticles ParticleFrames::frame(int number, const Progress& progress) {
   const Moment moment = moment_of(number);
   const RenderParticlesOptions options = options_of_frame(options_, number, moment.key);
-  if (!series_) return render_ready(still_, options, progress);
-  return render_ready(particles_at(moment.time, progress), options, progress);
+  RenderedParticles rendered = series_ ? render_ready(particles_at(moment.time, progress), options, progress)
+                                       : render_ready(still_, options, progress);
+  rendered.units = units_;
+  rendered.redshift = redshift_;
+  // The time of a universe that expands is its scale factor.
+  if (series_ && redshift_) rendered.redshift = 1 / moment.time - 1;
+  return rendered;
 }
 
 ReadyParticles ParticleFrames::particles_at(double time, const Progress& progress) {

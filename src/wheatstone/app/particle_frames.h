@@ -58,8 +58,10 @@ class ParticleFrames {
   ParticleFramesOptions options_;
   std::filesystem::path input_;
   std::optional<SeriesReader> series_;
-  ReadyParticles still_;        ///< where there is one snapshot
-  CloudStatistics statistics_;  ///< of all snapshots
+  ReadyParticles still_;            ///< where there is one snapshot
+  CloudStatistics statistics_;      ///< of all snapshots
+  ShownUnits units_;                ///< of the first snapshot
+  std::optional<double> redshift_;  ///< of the first snapshot
 };
 
 }  // namespace wheatstone

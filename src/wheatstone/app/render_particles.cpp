@@ -17,6 +17,7 @@
 #include "wheatstone/multiview/render_slices.h"
 #include "wheatstone/particles/cloud_statistics.h"
 #include "wheatstone/particles/sph_density.h"
+#include "wheatstone/particles/unit_expression.h"
 
 namespace wheatstone {
 namespace {
@@ -158,14 +159,10 @@ RenderedParticles render_surveyed(const std::filesystem::path& file, const Rende
   return result;
 }
 
-/// The unit that a file tells for a quantity: what stands in brackets, as a name, where there is one.
+/// The unit that a file tells for a quantity.
 std::string unit_of(const CloudSource& source, const std::string& name, std::string otherwise) {
-  for (const auto& [known, unit] : source.units) {
-    if (known != name) continue;
-    const std::size_t opening = unit.find('(');
-    if (opening == std::string::npos || !unit.ends_with(')')) return unit;
-    return unit.substr(opening + 1, unit.size() - opening - 2);
-  }
+  for (const auto& [known, unit] : source.units)
+    if (known == name) return unit_expression(unit);
   return otherwise;
 }
 
@@ -173,16 +170,14 @@ std::string unit_of(const CloudSource& source, const std::string& name, std::str
 
 ShownUnits units_of(const CloudSource& source, const RenderParticlesOptions& options, bool has_mass) {
   ShownUnits units;
-  units.length = unit_of(source, "length", unit_of(source, "x", "code length"));
+  units.length = unit_of(source, "length", unit_of(source, "x", "code_length"));
   const std::string name = quantity_name_of(options.quantity);
   if (name.empty()) {
-    const std::string mass = has_mass ? unit_of(source, "mass", "code mass") : "particles";
     units.name = "column density";
-    const bool one_word = units.length.find(' ') == std::string::npos;
-    units.value = fmt::format("{} / {}^2", mass, one_word ? units.length : fmt::format("({})", units.length));
+    units.value = column_unit(has_mass ? unit_of(source, "mass", "code_mass") : "particles", units.length);
   } else {
     units.name = name;
-    units.value = unit_of(source, name, name == "temperature" ? "K" : "code units");
+    units.value = unit_of(source, name, name == "temperature" ? "K" : "code_unit");
   }
   return units;
 }

@@ -74,10 +74,11 @@ struct RenderParticlesOptions {
   std::size_t chunk = 1 << 16;  ///< particles; what is made of so few stays in the cache
 };
 
-/// The units of a picture's numbers, as far as the file tells: "kpc", "code length".
+/// What numbers of a picture are counted in, as far as the file tells, as unit_expression writes it: "kpc",
+/// "code_length".
 struct ShownUnits {
   std::string length;
-  std::string value;  ///< of what is shown: "Msun kpc^-2"
+  std::string value;  ///< of what is shown: "Msun/kpc**2"
   std::string name;   ///< of what is shown: "column density"
 };
 

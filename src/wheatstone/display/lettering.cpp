@@ -1,6 +1,7 @@
 #include "wheatstone/display/lettering.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <fontconfig/fontconfig.h>
 #include <ft2build.h>
 #include FT_FREETYPE_H
@@ -155,6 +156,17 @@ std::filesystem::path font_for(std::string_view text) {
                             "Debian's package fonts-dejavu-core",
                             text));
   return std::get<std::string>(*best);
+}
+
+std::vector<Image<std::uint8_t>> set_labels(std::span<const std::string> texts, int size_px) {
+  const Face face(font_for(fmt::format("{}", fmt::join(texts, " "))), size_px);
+  std::vector<Image<std::uint8_t>> labels;
+  for (const std::string& text : texts) {
+    const std::u32string codes = codes_of(text);
+    labels.emplace_back(face.width_px(codes) + 2, face.ascent_px() + face.descent_px());  // slanted parts reach out
+    put_line(face, codes, 1, face.ascent_px(), labels.back());
+  }
+  return labels;
 }
 
 Lettering set_text(std::string_view text, int size_px, int width_px) {

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,6 +15,10 @@ namespace wheatstone {
 /// Sans or Liberation Sans where they have them, else the first by name. Throws Error: wrong_usage where the text is
 /// not UTF-8, cannot_read_write where no font has its letters.
 std::filesystem::path font_for(std::string_view text);
+
+/// Texts of one font and size, each as a line that is as wide as its letters: 0 is bare, 255 is covered. The base of
+/// all letters is equally far below the upper edge. Throws as font_for, which is asked for all letters of the texts.
+std::vector<Image<std::uint8_t>> set_labels(std::span<const std::string> texts, int size_px);
 
 /// Lines of text, set one below the other and each in the middle: 0 is bare, 255 is covered.
 struct Lettering {

@@ -12,4 +12,7 @@ Image<Rgb8> colour_bar(const ToneSettings& settings, int width, int height);
 /// The number that has a brightness, 0..1, between the limits, which are known.
 float value_at(const ToneSettings& settings, float brightness);
 
+/// The brightness, 0..1 where a number lies between the limits, which are known: the inverse of value_at.
+float brightness_at(const ToneSettings& settings, float value);
+
 }  // namespace wheatstone

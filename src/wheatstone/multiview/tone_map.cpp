@@ -175,4 +175,10 @@ float value_at(const ToneSettings& settings, float brightness) {
   }
 }
 
+float brightness_at(const ToneSettings& settings, float value) {
+  const bool logarithmic = settings.stretch == Stretch::log;
+  const float least = logarithmic ? 0 : settings.least;
+  return brightness_of((value - least) / (settings.most - least), settings.stretch, settings.least / settings.most);
+}
+
 }  // namespace wheatstone
