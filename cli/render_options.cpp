@@ -336,8 +336,9 @@ Rows depth_mapping_rows(RenderArguments& a) {
   PerceivedDepth& depth = a.options.depth;
   const Reason mapped = when([&a] { return !a.options.depth.regions.empty(); },
                              "with --depth-mapping; the mapping says where the depth ends");
-  const Reason kept = when([&a] { return reads_slices(a) && !a.given("--near") && !a.given("--far"); },
-                           "on slices (.exr) whose depth stays as it is; it works with --near or --far");
+  const Reason kept = when(
+      [&a] { return reads_slices(a) && !a.given("--near") && !a.given("--far") && a.options.depth.regions.empty(); },
+      "on slices (.exr) whose depth stays as it is; it works with --near, --far or --depth-mapping");
   return {row("--near", length(depth.near_mm, near_range_mm), "Depth in front of the screen, in mm", {mapped}),
           row("--far", length(depth.far_mm, far_range_mm), "Depth behind the screen, in mm", {mapped}),
           row("--eye", length(depth.viewing.eye_separation_mm, eye_range_mm),
@@ -348,8 +349,7 @@ Rows depth_mapping_rows(RenderArguments& a) {
               "Width of the screen, in mm", {kept}),
           row("--depth-mapping", depth_regions(depth.regions),
               "Depth mapping by regions: SHARE:MM,... where SHARE is 0 for the nearest and 1 for the farthest "
-              "particle, and MM is the depth behind the screen",
-              {on_slices(a)}),
+              "particle or slice, and MM is the depth behind the screen"),
           row("--focus", point_of_screen(a.focus),
               "Point X,Y of the screen around which there is more depth than elsewhere, as shares of its width and "
               "height from the upper left: 0.5,0.5 is the middle",

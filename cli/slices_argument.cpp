@@ -14,7 +14,9 @@ RenderedParticles render_slice_file(const std::filesystem::path& file, const Giv
   RenderedParticles result;
   result.format = "slices";
   result.stack = read_slices(file);
-  if (given("--near") || given("--far")) {
+  if (!options.depth.regions.empty()) {
+    map_depth(result.stack, options.depth.regions, options.depth.viewing);
+  } else if (given("--near") || given("--far")) {
     const DepthMapping mapping = mapping_for(options.depth, result.stack.width, 1, 2);
     map_depth(result.stack, mapping.points.front().parallax_px, mapping.points.back().parallax_px);
   }

@@ -8,7 +8,8 @@
 
 namespace wheatstone::cli {
 
-/// The views of depth planes that were written before, with the depth that --near and --far ask for.
+/// The views of depth planes that were written before, with the depth that --near, --far or
+/// --depth-mapping ask for.
 RenderedParticles render_slice_file(const std::filesystem::path& file, const Given& given,
                                     const RenderParticlesOptions& options, const Progress& progress);
 

@@ -218,11 +218,11 @@ struct LineOf {
   }
   std::string operator()(const SlicesContent& /*content*/) const {
     const ViewState& state = session.state;
-    const bool has_depth = state.look.near_mm || state.look.far_mm;
-    if (has_depth || state.look.focus.at)
-      return fmt::format("wheatstone render{} --filter centroid --views 2 --span {}{}{} -o views", files_of(item),
+    const bool has_depth = state.look.near_mm || state.look.far_mm || !state.depth_regions.empty();
+    if (has_depth || state.look.focus.at || session.film)
+      return fmt::format("wheatstone render{} --filter centroid --views 2 --span {}{}{} -o {}", files_of(item),
                          state.adjustment.separation, has_depth ? depth_options(state) : std::string(),
-                         focus_options(state.look.focus));
+                         focus_options(state.look.focus), session.film ? "film.mp4" : "views");
     return packed(session.state, shell_word(item.front().string()),
                   session.state.adjustment.zero_parallax_px * session.state.adjustment.separation);
   }
@@ -240,8 +240,8 @@ struct LineOf {
 std::string command_line_of(const Session& session) {
   const Item* const item = open_item(session);
   if (item == nullptr) return {};
-  return session.film && !session.film->of_particles ? for_film(session, *item)
-                                                     : std::visit(LineOf{session, *item}, session.opened.content);
+  const bool is_of_pictures = session.opened.film && session.opened.film->film.slices.empty();
+  return is_of_pictures ? for_film(session, *item) : std::visit(LineOf{session, *item}, session.opened.content);
 }
 
 }  // namespace wheatstone::viewer

@@ -129,6 +129,18 @@ Opened open_film_files(const FilmFiles& files) {
   return opened;
 }
 
+Opened opened_slice_film(OpenedFilm slices) {
+  auto film = std::make_shared<const OpenedFilm>(std::move(slices));
+  std::uintmax_t bytes = 0;
+  for (const fs::path& file : film->film.slices) bytes += fs::file_size(file);
+  const std::size_t count = film->film.slices.size();
+  Opened opened{film->first.content, "film of slices", {}};
+  opened.notes.push_back(fmt::format("{} frames of slices, {:.1f} MB each", count,
+                                     static_cast<double>(bytes) / 1e6 / static_cast<double>(count)));
+  opened.film = std::move(film);
+  return opened;
+}
+
 /// Whether a path is the pattern of snapshots.
 bool names_series(const fs::path& path) {
   const std::optional<FramePattern> pattern = frame_pattern(path);
@@ -152,6 +164,7 @@ Opened open_without_depth(std::span<const fs::path> files, const Listeners& list
   const fs::path& path = files.front();
   report(listeners.progress, "reading", 0);
   if (names_series(path)) return open_particles(path, listeners);
+  if (std::optional<OpenedFilm> slices = open_slices_to_play(path)) return opened_slice_film(*std::move(slices));
   if (names_film(path))
     return open_film_files(files.size() == 2 ? FilmFiles{path, files[1], {}} : find_film(path.string()));
   if (files.size() == 2)

@@ -11,9 +11,9 @@
 #include "output_mode.h"
 #include "viewer.h"
 #include "wheatstone/depth/comfort.h"
-#include "wheatstone/depth/disparity_mapping.h"
 #include "wheatstone/depth/display_presets.h"
 #include "wheatstone/marks/mapped_depth.h"
+#include "wheatstone/multiview/render_slices.h"
 
 namespace wheatstone::viewer {
 namespace {
@@ -65,10 +65,7 @@ Content placed_content(const Content& content, const ViewState& state) {
   }
   if (const auto* const sliced = std::get_if<SlicesContent>(&content)) {
     auto placed = std::make_shared<SliceStack>(*sliced->slices);
-    const DepthEnds depth = depth_of(content).value_or(DepthEnds());
-    placing.viewing.width_px = placed->width;
-    const DisparityMapping mapping = disparity_mapping(placing.regions, depth, placing.viewing);
-    for (Slice& slice : placed->slices) slice.parallax_px = -mapped_px(mapping, -slice.parallax_px);
+    map_depth(*placed, placing.regions, placing.viewing);
     return SlicesContent{std::move(placed)};
   }
   return content;

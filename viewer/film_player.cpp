@@ -5,6 +5,9 @@
 #include <memory>
 #include <utility>
 
+#include "wheatstone/multiview/slice_file.h"
+#include "wheatstone/video/frame_sequence.h"
+
 namespace wheatstone::viewer {
 namespace {
 
@@ -37,6 +40,13 @@ std::unique_ptr<FilmMoment> moment_of(StereoFrame& frame, const FilmToPlay& film
       FilmMoment{content_of(frame, film.quilt), std::llround(seconds * frames_a_second(film)), seconds});
 }
 
+/// Reads a frame's file of slices.
+std::unique_ptr<FilmMoment> moment_of_slices(const FilmToPlay& film, std::size_t frame) {
+  return std::make_unique<FilmMoment>(
+      FilmMoment{SlicesContent{std::make_shared<const SliceStack>(read_slices(film.slices[frame]))},
+                 static_cast<std::int64_t>(frame), static_cast<double>(frame) * seconds_a_frame(film)});
+}
+
 }  // namespace
 
 double seconds_a_frame(const FilmToPlay& film) { return 1 / frames_a_second(film); }
@@ -54,6 +64,20 @@ OpenedFilm open_film_to_play(const FilmFiles& files) {
   StereoFrame frame;
   if (!reader.read(frame)) throw Error(ErrorKind::bad_input, files.film.string() + ": has no frame");
   opened.first = *moment_of(frame, opened.film);
+  return opened;
+}
+
+std::optional<OpenedFilm> open_slices_to_play(const std::filesystem::path& pattern) {
+  const std::optional<FramePattern> names = frame_pattern(pattern);
+  if (!names || pattern.extension() != ".exr" || numbers_of(*names).empty()) return {};
+  OpenedFilm opened{.film = {.files = {.film = pattern}}};
+  for (const std::int64_t number : numbers_without_hole(*names)) opened.film.slices.push_back(names->file(number));
+  if (!holds_slices(opened.film.slices.front())) return {};
+  FilmFacts& facts = opened.film.facts;
+  facts.frame_rate = {24, 1};
+  facts.frame_count = static_cast<std::int64_t>(opened.film.slices.size());
+  facts.duration_s = static_cast<double>(opened.film.slices.size()) * seconds_a_frame(opened.film);
+  opened.first = *moment_of_slices(opened.film, 0);
   return opened;
 }
 
@@ -210,6 +234,12 @@ void FilmPlayer::read_from(double seconds, std::uint64_t search, const std::stop
   if (any) give(moment_of(frame, film_), search, stop);
 }
 
+void FilmPlayer::read_slices_from(double seconds, std::uint64_t search, const std::stop_token& stop) {
+  const double from = std::ceil(std::max(seconds, 0.) / seconds_a_frame(film_));
+  for (auto frame = static_cast<std::size_t>(from); frame < film_.slices.size() && !stop.stop_requested(); ++frame)
+    if (!give(moment_of_slices(film_, frame), search, stop)) return;
+}
+
 void FilmPlayer::decode(const std::stop_token& stop) {
   while (!stop.stop_requested()) {
     std::unique_lock lock(mutex_);
@@ -218,7 +248,10 @@ void FilmPlayer::decode(const std::stop_token& stop) {
     lock.unlock();
     std::optional<Error> failure;
     try {
-      read_from(seconds, search, stop);
+      if (film_.slices.empty())
+        read_from(seconds, search, stop);
+      else
+        read_slices_from(seconds, search, stop);
     } catch (const Error& error) {
       failure = error;
     } catch (const std::exception& error) {

@@ -3,12 +3,14 @@
 #include <condition_variable>
 #include <cstdint>
 #include <deque>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "content.h"
 #include "wheatstone/display/quilt.h"
@@ -21,7 +23,8 @@ namespace wheatstone::viewer {
 struct FilmToPlay {
   FilmFiles files;  ///< with the layout, where it is one film
   FilmFacts facts;
-  std::optional<QuiltLayout> quilt;  ///< of a film of quilts
+  std::optional<QuiltLayout> quilt;           ///< of a film of quilts
+  std::vector<std::filesystem::path> slices;  ///< of a film of slices: a file for each frame
 };
 
 /// A moment of a film, as it is shown. Counted from 0.
@@ -38,6 +41,10 @@ struct OpenedFilm {
   std::string layout_how;  ///< for people
 };
 OpenedFilm open_film_to_play(const FilmFiles& files);
+
+/// The same of numbered files of slices, "s_%04d.exr", at 24 frames a second. None where the path is no such pattern,
+/// or its first file holds no slices. Throws Error{bad_input} where a number between them is missing.
+std::optional<OpenedFilm> open_slices_to_play(const std::filesystem::path& pattern);
 
 /// How long a frame is shown, in seconds, and the whole film; 0 where it is not known.
 double seconds_a_frame(const FilmToPlay& film);
@@ -76,6 +83,7 @@ class FilmPlayer {
  private:
   void decode(const std::stop_token& stop);
   void read_from(double seconds, std::uint64_t search, const std::stop_token& stop);
+  void read_slices_from(double seconds, std::uint64_t search, const std::stop_token& stop);
   bool give(std::unique_ptr<FilmMoment> moment, std::uint64_t search, const std::stop_token& stop);
   std::unique_ptr<FilmMoment> take_ahead();
   void search(double seconds);

@@ -21,6 +21,7 @@
 #include "viewer.h"
 #include "wheatstone/display/quilt.h"
 #include "wheatstone/files/whole_file.h"
+#include "wheatstone/multiview/slice_file.h"
 #include "wheatstone/pictures/write_image.h"
 #include "wheatstone/stereo/packed_pair.h"
 #include "wheatstone/synthetic/synthetic_film.h"
@@ -204,6 +205,63 @@ void write_scene(const fs::path& path, int count) {
         return put_together(frame.pictures.left, frame.pictures.right, StereoLayout::left_right);
       },
       count);
+}
+
+/// A film of slices: one plane of a level that tells the frame, before the screen, and one behind it.
+void write_slice_film(const fs::path& folder, int count) {
+  for (int i = 0; i < count; ++i) {
+    const auto light = static_cast<float>(i + 1) / static_cast<float>(count);
+    SliceStack stack{.width = width, .height = height, .span = 2};
+    for (const float parallax_px : {-4.f, 4.f}) {
+      Slice& slice = stack.slices.emplace_back(Slice{.parallax_px = parallax_px});
+      slice.pixels = Image<LinearRgba>(width, height);
+      for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x)
+          slice.pixels(x, y) =
+              parallax_px < 0 ? LinearRgba{light, 0, 0, 0} : LinearRgba{0, x % 9 == 0 ? 1.f : 0.f, 0, 0};
+    }
+    write_slices(folder / fmt::format("s_{:04}.exr", i + 1), stack);
+  }
+}
+
+TEST_F(OpenFilm, MayBeNumberedSlicesWhoseDepthIsChosenWhileTheyPlay) {
+  write_slice_film(folder / ".", frames);
+  open(folder / "s_%04d.exr");
+  EXPECT_EQ(viewer.session().opened.kind, "film of slices");
+  EXPECT_NEAR(film().duration_s, frames / 24., 1e-9);
+  run("mode left-right");
+  const auto red = [&] { return viewer.frame()->picture(width / 2, height / 2).r; };
+  const int first = red();
+  for (const auto& [line, frame] : {std::pair("frame-step", 1),
+                                    {"seek-to 0.5", 12},
+                                    {"frame-back", 11},
+                                    {"seek-to 99", frames - 1},
+                                    {"seek -99", 0}}) {
+    run(line);
+    EXPECT_EQ(film().frame, frame) << line;
+    EXPECT_EQ(red() > first, frame > 0) << line;
+  }
+  Image<Rgb8> before = viewer.frame()->picture;
+  for (const char* line : {"near 60", "far 90", "depth-mapping 0:-20,1:5", "zero-parallax 3", "focus 0.5,0.5"}) {
+    run(line);
+    EXPECT_NE(viewer.frame()->picture, before) << line;
+    before = viewer.frame()->picture;
+  }
+  EXPECT_THAT(command_line_of(viewer.session()), HasSubstr("--depth-mapping 0:-20,1:5"));
+  EXPECT_THAT(command_line_of(viewer.session()), HasSubstr("-o film.mp4"));
+  run("mode right");
+  EXPECT_NE(viewer.frame()->picture, before);
+  run_line(viewer, "play");
+  watch(0.3);
+  run("pause");
+  EXPECT_GT(film().frame, 1);
+  expect_error(ErrorKind::wrong_usage, "a film of slices is not painted",
+               [&] { run_line(viewer, fmt::format("paint-film {}", (folder / "out.mp4").string())); });
+  // A hole between the numbers is told, not played over.
+  fs::remove(folder / "s_0007.exr");
+  run_line(viewer, fmt::format("open \"{}\"", (folder / "s_%04d.exr").string()));
+  viewer.wait();
+  EXPECT_THAT(viewer.session().message, HasSubstr("s_0007.exr"));
 }
 
 TEST(Film, IsPaintedWhereItStandsAndShownAsItIsWhereItPlays) {

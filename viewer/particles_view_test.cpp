@@ -280,13 +280,18 @@ TEST(OpenSlices, StandAsDeepAsAsked) {
   run_line(viewer, "zero-parallax 0");
   run_line(viewer, "near 20");
   run_line(viewer, "far 20");
-  run_line(viewer, "separation 1");
-  viewer.wait();
-  const std::string line = command_line_of(viewer.session());
-  run_command(folder, words_of(line));
-  const Image<Rgb8> left = read_image(folder / "views/view_000.png");
-  for (int y = 0; y < 80; ++y)
-    for (int x = 20; x < 100; ++x) ASSERT_EQ(viewer.frame()->picture(x, y), left(x, y)) << line;
+  Image<Rgb8> before;
+  for (const char* asked : {"separation 1", "depth-mapping 0:-30,0.5:-5,1:10"}) {
+    run_line(viewer, asked);
+    viewer.wait();
+    const std::string line = command_line_of(viewer.session());
+    run_command(folder, words_of(line));
+    const Image<Rgb8> left = read_image(folder / "views/view_000.png");
+    EXPECT_NE(left, before) << line;
+    for (int y = 0; y < 80; ++y)
+      for (int x = 20; x < 100; ++x) ASSERT_EQ(viewer.frame()->picture(x, y), left(x, y)) << line;
+    before = left;
+  }
 }
 
 }  // namespace wheatstone::viewer::particles_view_test

@@ -102,6 +102,8 @@ void Viewer::move_film(double now_s) {
 
 void Viewer::paint_whole_film(const std::filesystem::path& output) {
   if (!player_) throw Error(ErrorKind::wrong_usage, "no film is open");
+  if (!player_->film().slices.empty())
+    throw Error(ErrorKind::wrong_usage, "a film of slices is not painted; 'wheatstone render' makes films of it");
   if (whole_film_) throw Error(ErrorKind::wrong_usage, "a film is being painted; 'cancel' stops that");
   session_.whole_film = Activity{"painting the film", 0};
   whole_film_ = std::make_unique<FilmPainting>(

@@ -204,7 +204,6 @@ std::vector<WithoutEffect> options_without_effect() {
         {"--method", "exact"},
         {"--planes", "4"},
         {"--values", "n.npy"},
-        {"--depth-mapping", "0:0,1:1"},
         {"--focus-gain", "2"},
         {"--eye", "60"}}},
       {with(render, {"--method", "exact"}), {{"--filter", "nearest"}, {"--planes", "4"}, {"--focus", "0.5,0.5"}}},

@@ -94,6 +94,11 @@ TEST(RenderCommand, SlicesServeAnyRigLater) {
   run_in(folder, {"render", universe(), "--views", "2", "--size", "160x90", "--save-slices", "s.exr", "-o", "a"});
   EXPECT_EQ(nlohmann::json::parse(run_in(folder, {"info", "s.exr", "--json"}).output)["kind"], "slices");
   run_in(folder, {"render", "s.exr", "--views", "2", "-o", "b"});
+  run_in(folder, {"render", "s.exr", "--views", "2", "--depth-mapping", "0:-40,0.3:0,1:0", "-o", "d"});
+  EXPECT_NE(read_image(folder / "d/view_000.png"), read_image(folder / "b/view_000.png"));
+  // Everything on the screen looks the same to both eyes.
+  run_in(folder, {"render", "s.exr", "--views", "2", "--depth-mapping", "0:0,1:0", "-o", "e"});
+  EXPECT_EQ(read_image(folder / "e/view_000.png"), read_image(folder / "e/view_001.png"));
   run_in(folder, {"render", "s.exr", "--views", "5", "--near", "10", "--far", "10", "-o", "c"});
   EXPECT_EQ(read_image(folder / "a/view_000.png"), read_image(folder / "b/view_000.png"));
   EXPECT_EQ(files_in(folder / "c").size(), 5u);

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <functional>
 
+#include "wheatstone/depth/disparity_mapping.h"
 #include "wheatstone/multiview/renderers_internal.h"
 
 namespace wheatstone {
@@ -144,6 +145,14 @@ void map_depth(SliceStack& stack, float nearest_px, float farthest_px) {
     const float share = range > 0 ? (slice.parallax_px - first) / range : 0.5f;
     slice.parallax_px = nearest_px + share * (farthest_px - nearest_px);
   }
+}
+
+void map_depth(SliceStack& stack, std::span<const DepthRegion> regions, ViewingGeometry viewing) {
+  if (stack.slices.empty()) return;
+  viewing.width_px = stack.width;
+  const DepthEnds ends{-stack.slices.back().parallax_px, -stack.slices.front().parallax_px};
+  const DisparityMapping mapping = disparity_mapping(regions, ends, viewing);
+  for (Slice& slice : stack.slices) slice.parallax_px = -mapped_px(mapping, -slice.parallax_px);
 }
 
 }  // namespace wheatstone

@@ -5,7 +5,9 @@
 #include <optional>
 #include <span>
 
+#include "wheatstone/depth/depth_regions.h"
 #include "wheatstone/depth/rig.h"
+#include "wheatstone/depth/viewing_geometry.h"
 #include "wheatstone/multiview/render.h"
 #include "wheatstone/multiview/slice_stack.h"
 
@@ -33,5 +35,9 @@ InterleavedView render_interleaved(const SliceStack& stack, std::span<const View
 
 /// Moves every slice: the parallaxes' range becomes the one given, in pixels. For another display, or less depth.
 void map_depth(SliceStack& stack, float nearest_px, float farthest_px);
+
+/// Moves every slice to where the regions have it, of which share 0 is the nearest slice and 1 the farthest; shares
+/// count parallax. Throws as disparity_mapping. The view is as wide as the screen; `viewing.width_px` is not read.
+void map_depth(SliceStack& stack, std::span<const DepthRegion> regions, ViewingGeometry viewing);
 
 }  // namespace wheatstone

@@ -1,6 +1,8 @@
 #include "wheatstone/multiview/slice_file.h"
 
 #include <fmt/format.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
@@ -311,10 +313,16 @@ SliceStack read_stack(const fs::path& path) {
   if (!reader) refuse(path, "is damaged or cut short, expected slices (.exr)");
   SliceStack stack;
   const std::size_t count = parts_of(path, *reader, stack).size();
-  for (std::size_t i = 0; i < count; ++i) {
-    Slice slice = read_slice(path, *reader, static_cast<int>(i));
+  std::vector<Slice> slices(count);
+  // Of films of slices, reading is what takes time. A reader reads one part at a time.
+  constexpr std::size_t parts_a_reader = 6;
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, parts_a_reader), [&](const auto& some) {
+    const std::unique_ptr<PictureReader> own = open_picture_file(path).reader;
+    if (!own) refuse(path, "is damaged or cut short, expected slices (.exr)");
+    for (std::size_t i = some.begin(); i < some.end(); ++i) slices[i] = read_slice(path, *own, static_cast<int>(i));
+  });
+  for (Slice& slice : slices)
     if (!is_dark(slice)) stack.slices.push_back(std::move(slice));
-  }
   std::ranges::stable_sort(stack.slices, {}, &Slice::parallax_px);
   return stack;
 }
@@ -340,6 +348,14 @@ void write_slices(const TemporaryFile& file, const SliceStack& stack) {
   } catch (const std::exception& error) {
     refuse_to_write(file.name(), error.what());
   }
+}
+
+bool holds_slices(const fs::path& path) {
+  constexpr std::string_view magic = "\x76\x2f\x31\x01";
+  std::string header(4096, '\0');  // the attributes of the first part
+  std::ifstream file(path, std::ios::binary);
+  file.read(header.data(), static_cast<std::streamsize>(header.size()));
+  return header.starts_with(magic) && header.find("wheatstone:parallax_px") != std::string::npos;
 }
 
 SliceStack read_slices(const fs::path& path) {

@@ -17,6 +17,9 @@ void write_slices(const std::filesystem::path& path, const SliceStack& stack);
 /// The same into a file that the caller commits, together with other results. Throws Error{cannot_read_write}.
 void write_slices(const TemporaryFile& file, const SliceStack& stack);
 
+/// Whether a file is an OpenEXR whose header has our attributes; not where it cannot be read.
+bool holds_slices(const std::filesystem::path& path);
+
 /// Throws Error{bad_input} where the file is no OpenEXR, is cut short, lacks our attributes, or would not fit in
 /// memory.
 SliceStack read_slices(const std::filesystem::path& path);
