@@ -21,6 +21,7 @@
 #include "wheatstone/multiview/render_slices.h"
 #include "wheatstone/multiview/slice_file.h"
 #include "wheatstone/particles/cloud_source.h"
+#include "wheatstone/particles/unit_expression.h"
 
 namespace wheatstone::python {
 namespace {
@@ -92,8 +93,10 @@ std::shared_ptr<PyParticles> load_particles(const std::filesystem::path& path) {
   return result_of([path](const Progress& progress) {
     const std::scoped_lock alone(reading);
     const CloudSource source = open_cloud(path);
-    Cloud cloud = read_cloud(source, path, progress);
-    return std::make_shared<PyParticles>(PyParticles{std::move(cloud), path.string(), source.format, source.units});
+    auto particles = std::make_shared<PyParticles>(
+        PyParticles{read_cloud(source, path, progress), path.string(), source.format, source.units});
+    for (auto& [name, unit] : particles->units) unit = unit_expression(unit);
+    return particles;
   });
 }
 
@@ -226,6 +229,7 @@ void add_particles(py::module_& module) {
   });
   module.def("render", &views_of);
   module.def("column_density", &column_density);
+  module.def("column_unit", &column_unit);
   module.def("slices", &slices_of);
   add_slices(module);
 }

@@ -1,5 +1,6 @@
 """Particles, and what other packages give of them. Run as test_wheatstone.py."""
 
+import contextlib
 import os
 import pathlib
 import subprocess
@@ -68,10 +69,46 @@ class FromOthers(unittest.TestCase):
         positions, mass = WithUnits(POSITIONS, "kpc"), WithUnits(np.ones(500), "Msun")
         length = WithUnits(np.full(500, 100), "pc")
         column = wheatstone.column_density(positions, mass=mass, smoothing_length=length, size=(64, 36))
-        self.assertEqual((column.units, column.length_units), ("Msun/(kpc)**2", "kpc"))
+        self.assertEqual((column.units, column.length_units), ("Msun/kpc**2", "kpc"))
         plain = wheatstone.column_density(POSITIONS, mass=np.ones(500), smoothing_length=np.full(500, 0.1), size=(64, 36))
         np.testing.assert_array_equal(column.values, plain.values)
         self.assertEqual(plain.units, "")
+
+    def test_units_are_parsed_by_unyt_and_astropy(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "gas.csv"
+            rows = "".join(f"{x:g},{y:g},{z:g},2,0.1\n" for x, y, z in POSITIONS)
+            path.write_text("x [kpc],y [kpc],z [kpc],mass [1e10 Msun],hsml\n" + rows)
+            column = wheatstone.column_density(path, size=(64, 36))
+            path.write_text("x [kpc],y [kpc],z [kpc],hsml\n" + "".join(f"{x},{y},{z},0.1\n" for x, y, z in POSITIONS))
+            counted = wheatstone.column_density(path, size=(64, 36))
+        self.assertEqual((column.units, column.length_units), ("1e+10*Msun/kpc**2", "kpc"))
+        self.assertEqual(counted.units, "1/kpc**2")
+        parsed = 0
+        with contextlib.suppress(ImportError):
+            import unyt
+            self.assertAlmostEqual(float((1 * unyt.Unit(column.units)).to("Msun/pc**2").value), 1e4, places=6)
+            self.assertEqual(1 * unyt.Unit(counted.units), 1 * unyt.Unit("kpc**-2"))
+            parsed += 1
+        with contextlib.suppress(ImportError):
+            from astropy import units
+            self.assertAlmostEqual(units.Unit(column.units).to(units.Msun / units.pc**2), 1e4, places=6)
+            self.assertEqual(units.Unit(counted.units), units.kpc**-2)
+            self.assertEqual(units.Unit(column.length_units), units.kpc)
+            parsed += 1
+        if parsed == 0:
+            self.skipTest("neither python3-unyt nor python3-astropy is installed")
+
+    def test_quantities_of_astropy_are_taken(self):
+        try:
+            from astropy import units
+        except ImportError:
+            self.skipTest("python3-astropy is not installed")
+        column = wheatstone.column_density(POSITIONS * units.kpc, mass=np.ones(500) * units.Msun,
+                                           smoothing_length=np.full(500, 100) * units.pc, size=(64, 36))
+        plain = wheatstone.column_density(POSITIONS, mass=np.ones(500), smoothing_length=np.full(500, 0.1), size=(64, 36))
+        np.testing.assert_allclose(column.values, plain.values, rtol=1e-4, atol=1e-4)
+        self.assertEqual(units.Unit(column.units), units.Msun / units.kpc**2)
 
     def test_numbers_beyond_single_precision_are_refused(self):
         with self.assertRaisesRegex(ValueError, "mass has numbers beyond single precision"):
@@ -113,7 +150,7 @@ class FromYt(unittest.TestCase):
         dataset = yt.load_particles(data, bbox=np.array(3 * [[-6.0, 6.0]]), length_unit="kpc", mass_unit="Msun")
         column = wheatstone.column_density(dataset.all_data(), size=(64, 36))
         plain = wheatstone.column_density(POSITIONS, size=(64, 36))
-        self.assertEqual(column.units, "code_mass/(code_length)**2")
+        self.assertEqual(column.units, "code_mass/code_length**2")
         np.testing.assert_allclose(column.extent, plain.extent, rtol=1e-4)
         np.testing.assert_allclose(column.values, plain.values, rtol=1e-3, atol=1e-3 * plain.values.max())
 

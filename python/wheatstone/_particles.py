@@ -120,7 +120,7 @@ class Column:
     extent: tuple
     """Left, right, bottom and top edge in the scene's unit of length, from the middle: as Matplotlib's imshow takes it."""
     units: str = ""
-    """Of the values, where it is known: "Msun/kpc**2"."""
+    """Of the values, where it is known, as unyt and astropy.units parse it: "Msun/kpc**2"."""
     length_units: str = ""
     """Of the extent, where it is known."""
 
@@ -130,7 +130,7 @@ def render(particles, *, density=None, temperature=None, smoothing_length=None, 
     """Views of particles, leftmost first, as an array of shape (views, height, width, 3).
 
     `particles` is a file, Particles, a data container of yt, or positions of shape (number, 3), which may have units as
-    those of unyt have. The views show mass; with `exposure` they are those of `--look thesis`.
+    those of unyt and astropy have. The views show mass; with `exposure` they are those of `--look thesis`.
     """
     made = _particles_of(particles, density=density, temperature=temperature, smoothing_length=smoothing_length,
                          mass=mass)
@@ -149,8 +149,10 @@ def column_density(particles, *, mass=None, smoothing_length=None, size=(640, 36
     values, pixel = _wheatstone.column_density(made._made, options)
     height, width = values.shape
     extent = (-width * pixel / 2, width * pixel / 2, -height * pixel / 2, height * pixel / 2)
-    length, mass_unit = made.units.get("length", ""), made.units.get("mass", "1" if made.mass is None else "")
-    return Column(values, extent, f"{mass_unit}/({length})**2" if length and mass_unit else "", length)
+    length, mass_unit = made.units.get("length", made.units.get("x", "")), made.units.get("mass", "")
+    if made.mass is None:
+        mass_unit = "1"
+    return Column(values, extent, _wheatstone.column_unit(mass_unit, length), length)
 
 
 def _options(views, size, span, **camera):
@@ -209,8 +211,8 @@ def _joined(axes):
 
 
 def _unit_of(array):
-    """The name of the unit that an array has, as those of unyt, yt and pynbody do; empty where it has none."""
-    unit = getattr(array, "units", None)
+    """The name of the unit that an array has, as those of unyt, yt, pynbody and astropy do; empty where it has none."""
+    unit = getattr(array, "units", getattr(array, "unit", None))
     return "" if unit is None else str(unit)
 
 

@@ -37,7 +37,7 @@ std::string multiplied(const std::string& text) {
     if (!std::regex_search(at, text.end(), found, factor, std::regex_constants::match_continuous)) return text;
     if (found[2] == "a" || found[2] == "h") return text;
     const std::string before = found[1] == "/" ? (product.empty() ? "1/" : "/") : (product.empty() ? "" : "*");
-    product += before + found[2].str();
+    product += before + (found[2] == "Msol" ? "Msun" : found[2].str());  // as pynbody has it
     if (found[3].matched && found[3] != "1") product += "**" + found[3].str();
     at = found[0].second;
   }

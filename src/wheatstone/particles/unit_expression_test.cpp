@@ -17,6 +17,7 @@ TEST(UnitExpression, WritesPowersAndProductsWithSigns) {
   EXPECT_EQ(unit_expression("6.8e-31 g cm^-3"), "6.8e-31*g*cm**-3");
   EXPECT_EQ(unit_expression("km s-1"), "km*s**-1");
   EXPECT_EQ(unit_expression("km/s"), "km/s");
+  EXPECT_EQ(unit_expression("1.00e+10 Msol"), "1e+10*Msun");
   EXPECT_EQ(unit_expression("Msun/(kpc)**2"), "Msun/(kpc)**2");
 }
 
