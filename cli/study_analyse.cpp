@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <array>
 #include <cmath>
 #include <string>
 
@@ -17,7 +18,10 @@ struct StudyAnalyseArguments {
   std::string study;
   std::string folder = "analysis";
   AnalysisOptions options;
+  bool against_published = false;
 };
+
+constexpr std::array<Choice<bool>, 1> references{{{"published", true}}};
 
 std::string text_of(const AnovaEffect& effect, std::string_view test) {
   if (std::isnan(effect.f))
@@ -37,6 +41,23 @@ std::string text_of(const MeasureAnalysis& measure) {
   return lines({}, all);
 }
 
+std::string text_of(const PublishedComparison& comparison) {
+  std::vector<std::string> all{
+      fmt::format("{} beside what was published: rank correlation {:.2f}", comparison.measure, comparison.order)};
+  for (const BesidePublished& one : comparison.conditions)
+    all.push_back(fmt::format("  {}: {:.2f}, published {:.2f} (SD {:.2f}): {:+.2f} SD", one.condition, one.mean,
+                              one.published, one.published_deviation, one.off));
+  return lines({}, all);
+}
+
+Json json_of(const PublishedComparison& comparison) {
+  Json conditions;
+  for (const BesidePublished& one : comparison.conditions)
+    conditions[one.condition] = {
+        {"mean", one.mean}, {"published_mean", one.published}, {"published_deviation", one.published_deviation}};
+  return {{"rank_correlation", comparison.order}, {"conditions", conditions}};
+}
+
 Json json_of(const AnovaResult& result) {
   Json effects = Json::array();
   for (const AnovaEffect& effect : result.effects)
@@ -51,9 +72,12 @@ Json json_of(const AnovaResult& result) {
 Report run_study_analyse(const StudyAnalyseArguments& arguments, const Session& session) {
   const StudyData data = read_study(arguments.study);
   const StudyAnalysis analysis = analyse_study(data, arguments.options);
+  const std::vector<PublishedComparison> published =
+      arguments.against_published ? beside_published(data.design, analysis) : std::vector<PublishedComparison>();
   OutputFolder folder(arguments.folder, {arguments.study});
-  for (const auto& [name, table] : analysis_tables(data, analysis)) write_whole_file(folder.file(name), table);
-  write_whole_file(folder.file("analysis.html"), analysis_page(data, analysis));
+  for (const auto& [name, table] : analysis_tables(data, analysis, published))
+    write_whole_file(folder.file(name), table);
+  write_whole_file(folder.file("analysis.html"), analysis_page(data, analysis, published));
   folder.commit();
   if (!analysis.without_trials.empty())
     remark(session, fmt::format("wheatstone: warning: {}: no trials of {}, which do not count", arguments.study,
@@ -66,6 +90,11 @@ Report run_study_analyse(const StudyAnalyseArguments& arguments, const Session& 
                               {"left_out", measure.by_subjects.left_out}};
     texts.push_back(text_of(measure));
   }
+  Json beside;
+  for (const PublishedComparison& comparison : published) {
+    beside[comparison.measure] = json_of(comparison);
+    texts.push_back(text_of(comparison));
+  }
   const std::vector<std::string>& unfinished = analysis.unfinished;
   return {{{"simulated", data.simulated, data.simulated ? "simulated observers: no person took part" : ""},
            {"subjects", analysis.subjects, fmt::format("subjects: {}, trials: {}", analysis.subjects, analysis.trials)},
@@ -74,6 +103,7 @@ Report run_study_analyse(const StudyAnalyseArguments& arguments, const Session& 
             unfinished.empty() ? "" : fmt::format("not finished: {}", fmt::join(unfinished, ", "))},
            {"without_trials", analysis.without_trials},
            {"outliers", analysis.outliers},
+           {"published", beside},
            {"measures", measures, lines({}, texts)}}};
 }
 
@@ -81,7 +111,9 @@ Rows analyse_rows(StudyAnalyseArguments& a) {
   return {row("study", required(of_type("DIR", text(a.study))), "Folder of the data"),
           row("-o,--output", output_name(a.folder), "Output folder"),
           row("--outliers", number(a.options.outlier_deviations, {0, 100}),
-              "Response times farther from the subject's mean than so many standard deviations are left out; 0: none")};
+              "Response times farther from the subject's mean than so many standard deviations are left out; 0: none"),
+          row("--against", choice(a.against_published, references),
+              "Put the means beside those of the publication that the design follows")};
 }
 
 }  // namespace

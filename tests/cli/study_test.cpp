@@ -76,6 +76,11 @@ TEST(StudyCommand, ASimulatedStudyIsAnalysed) {
   EXPECT_THAT(files_in(folder / "out"),
               testing::UnorderedElementsAre("analysis.html", "comparisons.tsv", "effects.tsv", "head_movement.tsv",
                                             "means.tsv", "questions.tsv"));
+  const ProgramResult compared =
+      run_program({"study", "analyse", "data", "--against", "published", "-o", "compared", "--json"}, here);
+  const auto beside = nlohmann::json::parse(compared.output)["published"]["response_time"];
+  EXPECT_EQ(beside["conditions"]["views_per_10cm=2"]["published_mean"], 19.49);
+  EXPECT_THAT(files_in(folder / "compared"), testing::Contains("published.tsv"));
   expect_refused(folder, {"study", "simulate", "painting-comfort", "-o", "data"}, 3, "holds data of another design");
   EXPECT_EQ(run_program({"study", "simulate", "path-searching-2", "--effect", "views_per_10cm=2:9", "-o", "data"}, here)
                 .exit_code,

@@ -132,6 +132,17 @@ Rows question_rows(const std::vector<QuestionMean>& questions) {
 
 const Row question_columns{"question", "mean", "standard_deviation", "subjects"};
 
+Rows published_rows(const PublishedComparison& comparison) {
+  Rows rows;
+  for (const BesidePublished& one : comparison.conditions)
+    rows.push_back({comparison.measure, one.condition, number(one.mean), number(one.published),
+                    number(one.published_deviation), number(one.off, 2)});
+  return rows;
+}
+
+const Row published_columns{"measure",        "condition",           "mean",
+                            "published_mean", "published_deviation", "deviations_above"};
+
 std::string tsv(Row columns, const Rows& rows, bool simulated) {
   columns.emplace_back("observer");
   std::string text;
@@ -182,7 +193,8 @@ constexpr std::string_view style =
 
 }  // namespace
 
-std::vector<std::pair<std::string, std::string>> analysis_tables(const StudyData& data, const StudyAnalysis& analysis) {
+std::vector<std::pair<std::string, std::string>> analysis_tables(const StudyData& data, const StudyAnalysis& analysis,
+                                                                 const std::vector<PublishedComparison>& published) {
   Rows means, effects, comparisons;
   const auto append = [](Rows& all, const Rows& rows) { all.insert(all.end(), rows.begin(), rows.end()); };
   for (const MeasureAnalysis& measure : analysis.measures) {
@@ -190,14 +202,20 @@ std::vector<std::pair<std::string, std::string>> analysis_tables(const StudyData
     append(effects, effect_rows(measure));
     append(comparisons, comparison_rows(measure));
   }
-  return {{"means.tsv", tsv(mean_columns, means, data.simulated)},
-          {"effects.tsv", tsv(effect_columns, effects, data.simulated)},
-          {"comparisons.tsv", tsv(comparison_columns, comparisons, data.simulated)},
-          {"head_movement.tsv", tsv(movement_columns, movement_rows(analysis.head_movement), data.simulated)},
-          {"questions.tsv", tsv(question_columns, question_rows(analysis.questions), data.simulated)}};
+  std::vector<std::pair<std::string, std::string>> tables{
+      {"means.tsv", tsv(mean_columns, means, data.simulated)},
+      {"effects.tsv", tsv(effect_columns, effects, data.simulated)},
+      {"comparisons.tsv", tsv(comparison_columns, comparisons, data.simulated)},
+      {"head_movement.tsv", tsv(movement_columns, movement_rows(analysis.head_movement), data.simulated)},
+      {"questions.tsv", tsv(question_columns, question_rows(analysis.questions), data.simulated)}};
+  Rows beside;
+  for (const PublishedComparison& comparison : published) append(beside, published_rows(comparison));
+  if (!beside.empty()) tables.emplace_back("published.tsv", tsv(published_columns, beside, data.simulated));
+  return tables;
 }
 
-std::string analysis_page(const StudyData& data, const StudyAnalysis& analysis) {
+std::string analysis_page(const StudyData& data, const StudyAnalysis& analysis,
+                          const std::vector<PublishedComparison>& published) {
   std::string page = fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\"><head><meta "
       "charset=\"utf-8\"><title>{0}</title><style>{1}</style></head><body>\n"
@@ -212,6 +230,10 @@ std::string analysis_page(const StudyData& data, const StudyAnalysis& analysis) 
     if (!subjects->empty())
       page += fmt::format("<p>{}: {}.</p>\n", what, escaped(fmt::format("{}", fmt::join(*subjects, ", "))));
   for (const MeasureAnalysis& measure : analysis.measures) page += measure_section(measure);
+  for (const PublishedComparison& comparison : published)
+    page += fmt::format("<h2>Beside what was published: {}</h2>\n<p>Rank correlation of the means: {}.</p>\n",
+                        escaped(comparison.measure), number(comparison.order, 2)) +
+            html_table(published_columns, published_rows(comparison));
   if (!analysis.head_movement.empty())
     page += "<h2>Head movement</h2>\n" + head_movement_figure(analysis.head_movement) +
             "<p>From the leftmost to the rightmost place of a trial; the table is in m.</p>\n" +

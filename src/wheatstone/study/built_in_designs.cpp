@@ -59,6 +59,36 @@ name = "discomfort"
 text = "How tired or uncomfortable are your eyes?"
 least_means = "not at all"
 most_means = "very"
+
+[published.response_time]  # mean, standard deviation: table 3.1, whose heading calls the 10 cm of the text 5 cm
+"depth_cm=2,views_per_10cm=0" = [18.94, 8.58]
+"depth_cm=2,views_per_10cm=2" = [18.01, 8.32]
+"depth_cm=2,views_per_10cm=4" = [17.80, 9.09]
+"depth_cm=2,views_per_10cm=6" = [18.27, 8.21]
+"depth_cm=2,views_per_10cm=8" = [18.47, 7.57]
+"depth_cm=2,views_per_10cm=10" = [18.30, 6.48]
+"depth_cm=10,views_per_10cm=0" = [18.22, 7.45]
+"depth_cm=10,views_per_10cm=2" = [17.95, 7.81]
+"depth_cm=10,views_per_10cm=4" = [17.07, 7.70]
+"depth_cm=10,views_per_10cm=6" = [16.15, 5.87]
+"depth_cm=10,views_per_10cm=8" = [16.19, 6.84]
+"depth_cm=10,views_per_10cm=10" = [16.77, 7.93]
+flat = [19.58, 9.80]
+
+[published.percent_correct]  # table 3.2, with the same heading
+"depth_cm=2,views_per_10cm=0" = [86.75, 13.34]
+"depth_cm=2,views_per_10cm=2" = [88.46, 12.77]
+"depth_cm=2,views_per_10cm=4" = [88.46, 14.39]
+"depth_cm=2,views_per_10cm=6" = [89.74, 12.46]
+"depth_cm=2,views_per_10cm=8" = [90.60, 13.13]
+"depth_cm=2,views_per_10cm=10" = [88.89, 13.96]
+"depth_cm=10,views_per_10cm=0" = [89.74, 11.86]
+"depth_cm=10,views_per_10cm=2" = [92.31, 10.71]
+"depth_cm=10,views_per_10cm=4" = [92.31, 12.00]
+"depth_cm=10,views_per_10cm=6" = [93.59, 11.22]
+"depth_cm=10,views_per_10cm=8" = [94.87, 10.92]
+"depth_cm=10,views_per_10cm=10" = [93.59, 13.03]
+flat = [77.35, 17.31]
 )";
 
 constexpr std::string_view path_searching_2 = R"(# How many views does head motion need without stereoscopic depth?
@@ -103,6 +133,20 @@ name = "discomfort"
 text = "How tired or uncomfortable are your eyes?"
 least_means = "not at all"
 most_means = "very"
+
+[published.response_time]  # mean, standard deviation: table 3.3
+"views_per_10cm=2" = [19.49, 3.69]
+"views_per_10cm=4" = [16.70, 6.08]
+"views_per_10cm=6" = [17.44, 7.08]
+"views_per_10cm=8" = [15.22, 5.03]
+"views_per_10cm=50" = [16.42, 5.52]
+
+[published.percent_correct]  # table 3.4
+"views_per_10cm=2" = [87.67, 14.00]
+"views_per_10cm=4" = [87.67, 10.83]
+"views_per_10cm=6" = [88.33, 12.20]
+"views_per_10cm=8" = [90.33, 9.72]
+"views_per_10cm=50" = [91.00, 11.37]
 )";
 
 constexpr std::string_view painting_comfort = R"(# How comfortable are stereoscopic paintings to look at?
@@ -136,6 +180,11 @@ instruction = """
 You will see pictures in depth. Look at each as long as you like.
 Press the space bar to begin."""
 question = "How comfortable is this picture to look at, from 1 (sick) to 5 (super)?"
+
+[published.rating]  # mean, standard deviation
+"version=original" = [4.55, 0.66]
+"version=consistent" = [3.71, 0.95]
+"version=inconsistent" = [2.10, 0.93]
 )";
 
 constexpr std::string_view two_or_forty_five =

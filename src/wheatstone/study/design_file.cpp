@@ -260,6 +260,30 @@ void read_numbers(const Table& table, StudyDesign& design) {
   table.read("seed", design.seed, 0, std::numeric_limits<std::int64_t>::max());
 }
 
+/// [published.MEASURE], in which "CONDITION" = [mean, standard deviation].
+void read_published(const Table& table, StudyDesign& design) {
+  for (const auto& [measure, node] : table) {
+    table.check_keys({"response_time", "percent_correct", "rating"});
+    const Table of_measure = table.table(measure.str());
+    for (const auto& [condition, pair] : of_measure) {
+      const toml::array* const numbers = pair.as_array();
+      const auto number = [&](std::size_t i) { return numbers->get(i)->value<double>(); };
+      if (numbers == nullptr || numbers->size() != 2 || !number(0) || !(number(1).value_or(0) > 0))
+        of_measure.refuse(condition.str(), "[mean, standard deviation], two numbers, the second above 0");
+      design.published.push_back({std::string(measure.str()), std::string(condition.str()), *number(0), *number(1)});
+    }
+  }
+}
+
+/// Published conditions are those of the design.
+void check_published(const Table& table, const StudyDesign& design) {
+  if (group_count(design) > 1) return;  // names of conditions have the group's level before them
+  const std::vector<StudyCondition> conditions = conditions_of_group(design, 0);
+  for (const PublishedMean& mean : design.published)
+    if (std::ranges::find(conditions, mean.condition, &StudyCondition::name) == conditions.end())
+      table.refuse(mean.condition, fmt::format("a condition of the design, as '{}'", conditions.front().name));
+}
+
 /// Numbers of levels and trials that a person could meet.
 void check_size(const Table& table, const StudyDesign& design) {
   constexpr std::size_t most_conditions = 1000, most_trials = 10'000;
@@ -300,8 +324,8 @@ StudyDesign parse_study_design(std::string_view toml, std::string_view name) {
     const toml::table document = toml::parse(toml);
     const Table table(document, std::string(name));
     table.check_keys({"name", "title", "task_label", "task", "subjects", "repetitions", "items", "order", "arrangement",
-                      "practice", "break_every", "seed", "shown", "factor", "control", "question", "texts",
-                      "pictures"});
+                      "practice", "break_every", "seed", "shown", "factor", "control", "question", "texts", "pictures",
+                      "published"});
     table.read("name", design.name);
     table.read("title", design.title);
     table.read("task_label", design.task_label);
@@ -319,6 +343,9 @@ StudyDesign parse_study_design(std::string_view toml, std::string_view name) {
     if (design.item_count == 0 && !design.factors.empty())
       design.item_count = condition_count(design) * design.repetitions;
     check_whole(table, design);
+    const Table published = table.table("published");
+    read_published(published, design);
+    check_published(published, design);
   } catch (const toml::parse_error& error) {
     throw Error(ErrorKind::bad_input,
                 fmt::format("{}:{}: is no TOML: {}", name, error.source().begin.line, error.description()));

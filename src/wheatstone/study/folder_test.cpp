@@ -123,6 +123,19 @@ TEST(StudyFolder, OfAnotherDesignOrKindIsRefused) {
   expect_error(ErrorKind::bad_input, "is no study", [&] { read_study(folder / "nowhere"); });
 }
 
+TEST(StudyFolder, MayGetPublishedMeansLater) {
+  const TemporaryFolder folder;
+  std::string toml = design().toml;
+  toml.erase(toml.find("\n[published"));
+  const StudyDesign earlier = parse_study_design(toml, "earlier.toml");
+  EXPECT_TRUE(earlier.published.empty());
+  const StudyFolder begun(folder / "data", earlier, true);
+  EXPECT_NO_THROW(StudyFolder(folder / "data", design(), true));
+  toml.replace(toml.find("practice = 6"), 12, "practice = 5");
+  expect_error(ErrorKind::bad_input, "another design",
+               [&] { StudyFolder(folder / "data", parse_study_design(toml, "other.toml"), true); });
+}
+
 TEST(StudyFolder, ATableThatIsBrokenIsNamed) {
   const std::string header = trial_table_header(design());
   const auto parse = [&](const std::string& text) {

@@ -64,6 +64,13 @@ struct StudyQuestion {
   std::string least_means, most_means;
 };
 
+/// What a publication tells of a condition, over its subjects.
+struct PublishedMean {
+  std::string measure;  ///< "response_time", in s, "percent_correct" or "rating"
+  std::string condition;
+  double mean = 0, deviation = 0;
+};
+
 /// What subjects read.
 struct StudyTexts {
   std::string instruction;
@@ -91,6 +98,7 @@ struct StudyDesign {
   std::vector<StudyFactor> factors;
   std::vector<ControlCondition> controls;
   std::vector<StudyQuestion> questions;
+  std::vector<PublishedMean> published;
   ShownSettings shown;
   std::vector<std::string> items;  ///< names of the pictures; empty for graphs
   std::string left, right;         ///< patterns of the pictures' files, with {item} and {FACTOR}

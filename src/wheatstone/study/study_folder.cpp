@@ -4,6 +4,7 @@
 
 #include <map>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "wheatstone/error.h"
 #include "wheatstone/files/whole_file.h"
@@ -74,9 +75,22 @@ bool holds_study(const fs::path& folder) {
   return false;
 }
 
+/// What of a design subjects meet: its lines without its published means, which may be added later.
+std::string without_published(const std::string& toml) {
+  std::string kept;
+  bool is_published = false;
+  std::istringstream lines(plain_text(toml));
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with('[')) is_published = line.starts_with("[published");
+    if (!is_published) kept += line + '\n';
+  }
+  kept.erase(kept.find_last_not_of('\n') + 1);
+  return kept;
+}
+
 void check_study_folder(const fs::path& path, const StudyDesign& design, bool simulated, std::string_view simulation) {
   if (!holds_study(path)) return;
-  if (plain_text(read_whole_file(design_file_of(path), most_bytes)) != plain_text(design.toml))
+  if (without_published(read_whole_file(design_file_of(path), most_bytes)) != without_published(design.toml))
     throw Error(ErrorKind::bad_input,
                 fmt::format("{}: holds data of another design than {}, expected an empty folder or one of this design",
                             path.string(), design.name));
