@@ -94,7 +94,8 @@ TEST(FolderCommands, NameTheirResults) {
   refused("/{stem}", "expected a name within the output");
   refused("", "expected a name within the output");
   expect_refused(folder, {"match", "photos/trip/b.mpo", "--name", "{stem}", "-o", "new"}, 2, "it works on a folder");
-  expect_refused(folder, {"match", "photos", "photos/a_L.png", "-o", "new"}, 3, "no other photograph is expected");
+  expect_refused(folder, {"match", "photos", "photos/a_L.png", "-o", "new"}, 3,
+                 "expected no other photograph beside it");
 }
 
 TEST(FolderCommands, MakeAGalleryOfPages) {
