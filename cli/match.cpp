@@ -85,16 +85,7 @@ PhotographResult match_one(const MatchCommandArguments& arguments, const Session
 }
 
 Report run_match(const MatchCommandArguments& arguments, const Session& session) {
-  if (!is_folder(arguments.photographs.left)) return match_one(arguments, session).report;
-  return work_on_pairs(
-      arguments.photographs, arguments.walk, arguments.folder, "matched",
-      [&](const StereoArguments& photograph, const std::string& output, const Session& of_one) {
-        MatchCommandArguments one = arguments;
-        one.photographs = photograph;
-        one.folder = output;
-        return match_one(one, of_one);
-      },
-      session);
+  return work_on_photograph_or_pairs(arguments, "matched", match_one, session);
 }
 
 Rows match_command_rows(MatchCommandArguments& a) {

@@ -11,7 +11,6 @@
 #include "commands.h"
 #include "device_option.h"
 #include "display_argument.h"
-#include "film_argument.h"
 #include "made_views.h"
 #include "pack_film.h"
 #include "packing.h"

@@ -43,4 +43,19 @@ using PairWork = std::function<PhotographResult(const StereoArguments&, const st
 Report work_on_pairs(const StereoArguments& photographs, const FolderArguments& folder, const std::string& output,
                      std::string_view done, const PairWork& work, const Session& session);
 
+/// What a command that needs two views tells: of the photograph that it is given, or of all pairs where a folder is
+/// given. Its arguments have `photographs`, `walk`, and the `folder` of the results.
+template <class Arguments>
+Report work_on_photograph_or_pairs(const Arguments& arguments, std::string_view done,
+                                   PhotographResult (*work)(const Arguments&, const Session&), const Session& session) {
+  if (!is_folder(arguments.photographs.left)) return work(arguments, session).report;
+  const auto work_on_pair = [&](const StereoArguments& photograph, const std::string& output, const Session& of_one) {
+    Arguments one = arguments;
+    one.photographs = photograph;
+    one.folder = output;
+    return work(one, of_one);
+  };
+  return work_on_pairs(arguments.photographs, arguments.walk, arguments.folder, done, work_on_pair, session);
+}
+
 }  // namespace wheatstone::cli

@@ -110,16 +110,7 @@ PhotographResult rectify_one(const RectifyArguments& arguments, const Session& s
 }
 
 Report run_rectify(const RectifyArguments& arguments, const Session& session) {
-  if (!is_folder(arguments.photographs.left)) return rectify_one(arguments, session).report;
-  return work_on_pairs(
-      arguments.photographs, arguments.walk, arguments.folder, "rectified",
-      [&](const StereoArguments& photograph, const std::string& output, const Session& of_one) {
-        RectifyArguments one = arguments;
-        one.photographs = photograph;
-        one.folder = output;
-        return rectify_one(one, of_one);
-      },
-      session);
+  return work_on_photograph_or_pairs(arguments, "rectified", rectify_one, session);
 }
 
 Rows rectify_rows(RectifyArguments& a) {

@@ -189,15 +189,19 @@ bool has_one_view(const Content& content) {
   return views != nullptr && views->views->size() == 1;
 }
 
-bool are_named_as_eyes(const fs::path& left, const fs::path& right) {
+std::vector<std::string> names_of_right_eye(const std::string& left) {
   static constexpr std::array eyes{std::pair("left", "right"), std::pair("Left", "Right"), std::pair("_L.", "_R."),
                                    std::pair("-L.", "-R."), std::pair("_l.", "_r.")};
-  const std::string name = left.filename().string();
-  return std::ranges::any_of(eyes, [&](const auto& eye) {
-    const std::size_t at = name.rfind(eye.first);
-    return at != std::string::npos &&
-           std::string(name).replace(at, std::strlen(eye.first), eye.second) == right.filename().string();
-  });
+  std::vector<std::string> names;
+  for (const auto& [word, other] : eyes)
+    if (const std::size_t at = left.rfind(word); at != std::string::npos)
+      names.push_back(std::string(left).replace(at, std::strlen(word), other));
+  return names;
+}
+
+bool are_named_as_eyes(const fs::path& left, const fs::path& right) {
+  const std::vector<std::string> names = names_of_right_eye(left.filename().string());
+  return std::ranges::find(names, right.filename().string()) != names.end();
 }
 
 std::optional<fs::path> find_other_eye(const fs::path& picture) {

@@ -102,6 +102,9 @@ Opened open_content(std::span<const std::filesystem::path> files, const Progress
 /// Whether the names of two files differ as those of two eyes: left.png and right.png, tree_L.jpg and tree_R.jpg.
 bool are_named_as_eyes(const std::filesystem::path& left, const std::filesystem::path& right);
 
+/// The names that the other eye's picture may have beside that of the left eye; none where this names no left eye.
+std::vector<std::string> names_of_right_eye(const std::string& left);
+
 /// The picture of the other eye that lies beside a picture of one view, as their names tell (left and right, L and R,
 /// or the next number) and what they show. None where there is no such. Reads pictures; the path is absolute.
 std::optional<std::filesystem::path> find_other_eye(const std::filesystem::path& picture);

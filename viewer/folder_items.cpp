@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cctype>
+#include <set>
 #include <system_error>
+#include <utility>
 
 #include "content.h"
 #include "wheatstone/error.h"
@@ -36,14 +38,11 @@ bool is_item(const fs::path& file) {
          ending == ".HEIC" || ending == ".avif";
 }
 
-/// Whether a file is the depth map of another one.
-bool is_depth_map(const fs::path& file, std::span<const fs::path> all) {
+/// Whether a file is named as the depth map of another one; `stems` are the names of all, without their endings.
+bool is_depth_map(const fs::path& file, const std::set<std::string>& stems) {
   const std::string stem = file.stem().string();
-  for (const std::string_view ending : {"_depth", "-depth"}) {
-    if (!stem.ends_with(ending)) continue;
-    const std::string picture = stem.substr(0, stem.size() - ending.size());
-    if (std::ranges::any_of(all, [&](const fs::path& other) { return other.stem() == picture; })) return true;
-  }
+  for (const std::string_view ending : {"_depth", "-depth"})
+    if (stem.ends_with(ending) && stems.contains(stem.substr(0, stem.size() - ending.size()))) return true;
   return false;
 }
 
@@ -58,13 +57,24 @@ std::vector<Item> items_of(const fs::path& folder, const fs::path& shown_folder)
   std::ranges::sort(files, [](const fs::path& a, const fs::path& b) {
     return comes_before(a.filename().string(), b.filename().string());
   });
+  // Each name is looked up: a folder may have thousands.
+  std::set<std::string> names, stems, right_eyes;
+  for (const fs::path& file : files) {
+    names.insert(file.filename().string());
+    stems.insert(file.stem().string());
+  }
+  const auto right_eyes_of = [&](const fs::path& file) {
+    std::vector<std::string> found = names_of_right_eye(file.filename().string());
+    std::erase_if(found, [&](const std::string& name) { return !names.contains(name); });
+    return found;
+  };
+  for (const fs::path& file : files)
+    for (std::string& name : right_eyes_of(file)) right_eyes.insert(std::move(name));
   std::vector<Item> items;
   for (const fs::path& file : files) {
-    const auto is_eye_before = [&](const fs::path& other) { return are_named_as_eyes(other, file); };
-    if (is_depth_map(file, files) || std::ranges::any_of(files, is_eye_before)) continue;
-    const auto right =
-        std::ranges::find_if(files, [&](const fs::path& other) { return are_named_as_eyes(file, other); });
-    items.push_back(right == files.end() ? Item{file} : Item{file, *right});
+    if (is_depth_map(file, stems) || right_eyes.contains(file.filename().string())) continue;
+    const std::vector<std::string> right = right_eyes_of(file);
+    items.push_back(right.empty() ? Item{file} : Item{file, file.parent_path() / right.front()});
   }
   return items;
 }

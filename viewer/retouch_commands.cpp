@@ -1,13 +1,11 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <filesystem>
 #include <optional>
 #include <string>
 
 #include "command_table.h"
-#include "depth_seen.h"
 #include "inputs.h"
 #include "wheatstone/error.h"
 #include "wheatstone/files/input_guard.h"
@@ -18,15 +16,12 @@
 namespace wheatstone::viewer {
 namespace {
 
-/// The photograph that can be retouched; none where there is none, or its depth is not known yet.
-const Photograph* retouched_photograph(const Viewer& viewer) {
+/// A photograph is open whose depth is known, and its painting.
+bool can_retouch(const Viewer& viewer) {
   const auto* const content = std::get_if<PaintedContent>(&viewer.session().opened.content);
-  const bool can = content != nullptr && content->painting && content->photograph && content->photograph->geometry &&
-                   !viewer.session().film;
-  return can ? content->photograph.get() : nullptr;
+  return content != nullptr && content->painting && content->photograph && content->photograph->geometry &&
+         !viewer.session().film;
 }
-
-bool can_retouch(const Viewer& viewer) { return retouched_photograph(viewer) != nullptr; }
 
 void set_tool(Viewer& viewer, const Words& words) {
   const auto found = std::ranges::find(retouch_tool_names, words[0]);

@@ -278,13 +278,11 @@ bool Window::pointer_event(QEvent* event) {
       return true;
     }
     case QEvent::MouseMove: {
-      pointer_ = static_cast<QMouseEvent*>(event)->position() * ratio;
       if (is_pressed_) {
         drag_to(pointer_);
       } else if (viewer_.session().gaze_follows_pointer && viewer_.frame() != nullptr) {
         do_line("gaze", {fmt::format("{}", pointer_.x()), fmt::format("{}", pointer_.y())});
       }
-      show_depth_under_pointer();
       return true;
     }
     case QEvent::MouseButtonRelease: {

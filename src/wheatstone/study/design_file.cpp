@@ -262,8 +262,8 @@ void read_numbers(const Table& table, StudyDesign& design) {
 
 /// [published.MEASURE], in which "CONDITION" = [mean, standard deviation].
 void read_published(const Table& table, StudyDesign& design) {
+  table.check_keys({"response_time", "percent_correct", "rating"});
   for (const auto& [measure, node] : table) {
-    table.check_keys({"response_time", "percent_correct", "rating"});
     const Table of_measure = table.table(measure.str());
     for (const auto& [condition, pair] : of_measure) {
       const toml::array* const numbers = pair.as_array();
