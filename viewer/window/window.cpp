@@ -59,8 +59,6 @@ Window::Window(const WindowOptions& options)
   picture->setMouseTracking(true);
   picture->setFocusPolicy(Qt::StrongFocus);
   picture->setAccessibleName("Picture");
-  picture->installEventFilter(this);
-  if (surface_->pointed_at() != picture) surface_->pointed_at()->installEventFilter(this);
   start_page_ = new StartPage([this](const std::string& name, const Words& words) { do_line(name, words); },
                               [this] { menus_->ask(find_command("open")); });
   pages_ = new QStackedWidget(this);
@@ -84,6 +82,9 @@ Window::Window(const WindowOptions& options)
   film_bar_ = new FilmBar(this, [this](const std::string& name, const Words& words) { do_line(name, words); });
   addToolBar(Qt::BottomToolBarArea, film_bar_);
   film_bar_->hide();
+  // Last of the parts: an event reaches the brush and the panels, and Qt sends some while parts are put together.
+  picture->installEventFilter(this);
+  if (surface_->pointed_at() != picture) surface_->pointed_at()->installEventFilter(this);
   if (!why_not.isEmpty()) {
     viewer_.tell(why_not.toStdString() + "; the processor draws instead");
     if (options.with_dialogs) QMessageBox::warning(this, "Wheatstone", why_not + ". The processor draws instead.");
