@@ -33,7 +33,7 @@ Ranks::Failure failure_with(ErrorKind kind, std::string message) {
 }  // namespace
 
 Ranks::Failure failure_of(const std::exception_ptr& thrown) {
-  const Ranks::Failure lack_of_memory = failure_with(ErrorKind::cannot_read_write, "not enough memory");
+  Ranks::Failure lack_of_memory = failure_with(ErrorKind::cannot_read_write, "not enough memory");
   if (!thrown) return lack_of_memory;
   try {
     std::rethrow_exception(thrown);

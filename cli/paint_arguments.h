@@ -46,6 +46,9 @@ struct PaintArguments {
   StyleArguments style;
 };
 
+/// The options of `paint`.
+Rows paint_rows(PaintArguments& a);
+
 /// Where a viewer is to see the scene's parts. Throws Error{wrong_usage}.
 DepthPlacing depth_placing_from(const PaintArguments& arguments);
 

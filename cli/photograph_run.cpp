@@ -228,6 +228,37 @@ class Workers {
   std::size_t over_ = 0, told_ = 0;
 };
 
+/// What is said of all photographs: a row a file for people, and the same as JSON.
+struct Told {
+  Report report;
+  std::vector<std::pair<std::string, std::string>> table;
+  Json photographs = Json::array(), left_out = Json::array();
+
+  void add(const PhotographJob& job, std::string row, Json facts) {
+    table.emplace_back(job.left, std::move(row));
+    Json files = files_of(job);
+    files.update(facts);
+    photographs.push_back(std::move(files));
+  }
+
+  void fail(Json files, const std::string& message, int code) {
+    const auto file = files["file"].get<std::string>();
+    report.exit_code = std::max(report.exit_code, code);
+    report.failures.push_back(message);
+    table.emplace_back(file, "failed: " + without_name(file, message));
+    files.update(Json{{"error", message}, {"exit_code", code}});
+    photographs.push_back(std::move(files));
+  }
+
+  void leave_out(const LeftOutFile& file) {
+    const std::string name = file.file.string();
+    if (file.error)
+      return fail({{"file", name}}, fmt::format("{}: {}", name, file.reason), static_cast<int>(*file.error));
+    table.emplace_back(name, "left out: " + file.reason);
+    left_out.push_back({{"file", name}, {"reason", file.reason}});
+  }
+};
+
 }  // namespace
 
 Report work_on_all(const PhotographWork& work, const PhotographList& list, const Session& session) {
@@ -245,49 +276,25 @@ Report work_on_all(const PhotographWork& work, const PhotographList& list, const
   std::vector<Outcome> outcomes;
   if (!is_dry && !wanted.empty()) outcomes = Workers(work, wanted, session).run();
 
-  Report report;
-  std::vector<std::pair<std::string, std::string>> table;
-  Json photographs = Json::array(), left_out = Json::array();
-  const auto fail = [&](Json files, const std::string& message, int code) {
-    const auto file = files["file"].get<std::string>();
-    report.exit_code = std::max(report.exit_code, code);
-    report.failures.push_back(message);
-    table.emplace_back(file, "failed: " + without_name(file, message));
-    files.update(Json{{"error", message}, {"exit_code", code}});
-    photographs.push_back(std::move(files));
-  };
+  Told told;
   std::size_t number = 0, done = 0;
   for (std::size_t i = 0; i < list.jobs.size(); ++i) {
     const PhotographJob& job = list.jobs[i];
-    Json files = files_of(job);
     const std::string why = job.why.empty() ? "" : fmt::format(" ({})", job.why);
     if (skipped[i]) {
-      table.emplace_back(job.left, fmt::format("{} before: {}", work.done, job.output));
-      files.update(Json{{"output", job.output}, {"skipped", true}});
+      told.add(job, fmt::format("{} before: {}", work.done, job.output), {{"output", job.output}, {"skipped", true}});
     } else if (is_dry) {
-      table.emplace_back(job.left, fmt::format("would be written to {}{}", job.output, why));
-      files.update(Json{{"output", job.output}});
+      told.add(job, fmt::format("would be written to {}{}", job.output, why), {{"output", job.output}});
+    } else if (const Outcome& outcome = outcomes[number++]; outcome.failure) {
+      told.fail(files_of(job), outcome.failure->message, outcome.failure->exit_code);
     } else {
-      const Outcome& outcome = outcomes[number++];
-      if (outcome.failure) {
-        fail(std::move(files), outcome.failure->message, outcome.failure->exit_code);
-        continue;
-      }
       ++done;
-      table.emplace_back(job.left, fmt::format("written to {}{}", outcome.result->written, why));
-      files.update(Json{{"output", outcome.result->written}, {"report", json_of(outcome.result->report)}});
-    }
-    photographs.push_back(std::move(files));
-  }
-  for (const LeftOutFile& file : list.left_out) {
-    const std::string name = file.file.string();
-    if (file.error) {
-      fail({{"file", name}}, fmt::format("{}: {}", name, file.reason), static_cast<int>(*file.error));
-    } else {
-      table.emplace_back(name, "left out: " + file.reason);
-      left_out.push_back({{"file", name}, {"reason", file.reason}});
+      told.add(job, fmt::format("written to {}{}", outcome.result->written, why),
+               {{"output", outcome.result->written}, {"report", json_of(outcome.result->report)}});
     }
   }
+  for (const LeftOutFile& file : list.left_out) told.leave_out(file);
+  Report& report = told.report;
   if (list.jobs.empty() && report.failures.empty() && work.folder.part.of == 1) {
     report.exit_code = static_cast<int>(ErrorKind::bad_input);
     report.failures.push_back(fmt::format("{}: holds pictures, but no stereo photograph", work.input));
@@ -296,13 +303,13 @@ Report work_on_all(const PhotographWork& work, const PhotographList& list, const
                                : fmt::format("{} of {} photographs {}", done, wanted.size(), work.done);
   const std::size_t left = list.jobs.size() - wanted.size();
   if (left > 0) summary += fmt::format(", {} {} before", left, work.done);
-  if (!left_out.empty()) summary += fmt::format(", {} files left out", left_out.size());
+  if (!told.left_out.empty()) summary += fmt::format(", {} files left out", told.left_out.size());
   report.facts = {{std::string(work.done), done},
                   {"failed", report.failures.size()},
-                  {"photographs", photographs, table_text(table)}};
+                  {"photographs", told.photographs, table_text(told.table)}};
   if (!work.input.empty()) {
     report.facts.push_back({"skipped", left});
-    report.facts.push_back({"left_out", left_out});
+    report.facts.push_back({"left_out", told.left_out});
   }
   if (work.folder.contact_sheet && !is_dry) write_contact_sheet(work, list, report);
   report.facts.push_back(only_text(summary));

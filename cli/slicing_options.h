@@ -26,6 +26,6 @@ inline bool makes_slice_film(const SliceFilmArguments& arguments) {
 }
 
 /// --slice-from, --slice-to, --frames and --rate.
-Rows slice_film_rows(SliceFilmArguments& arguments, const Reasons& unless);
+Rows slice_film_rows(SliceFilmArguments& film, const Reasons& unless);
 
 }  // namespace wheatstone::cli

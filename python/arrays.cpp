@@ -41,7 +41,7 @@ py::array owning(Image<Pixel> image, const std::vector<py::ssize_t>& shape) {
   auto owned = std::make_unique<Image<Pixel>>(std::move(image));
   const auto* const data = reinterpret_cast<const Number*>(owned->pixels().data());
   const py::capsule owner(owned.get(), [](void* kept) { delete static_cast<Image<Pixel>*>(kept); });
-  owned.release();
+  static_cast<void>(owned.release());
   return py::array_t<Number>(shape, data, owner);
 }
 

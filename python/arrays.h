@@ -18,25 +18,25 @@ using Array = pybind11::array_t<Value, pybind11::array::c_style>;
 
 /// A picture of height × width × 3 bytes, read in place: the array must live as long. Throws ValueError that names the
 /// argument and the shape that was expected.
-ImageView<const Rgb8> picture_in(const pybind11::object& array, const std::string& name);
+ImageView<const Rgb8> picture_in(const pybind11::object& given, const std::string& name);
 
 /// The same for disparities, height × width numbers of single precision.
-ImageView<const float> disparities_in(const pybind11::object& array, const std::string& name);
+ImageView<const float> disparities_in(const pybind11::object& given, const std::string& name);
 
 /// And for levels, height × width bytes.
-ImageView<const std::uint8_t> levels_in(const pybind11::object& array, const std::string& name);
+ImageView<const std::uint8_t> levels_in(const pybind11::object& given, const std::string& name);
 
 /// Two pictures, copied.
 StereoPair pair_in(const pybind11::object& left, const pybind11::object& right);
 
 /// Pictures of one size, from left to right, copied: an array of number × height × width × 3 bytes.
-std::vector<Image<Rgb8>> views_in(const pybind11::object& array, const std::string& name);
+std::vector<Image<Rgb8>> views_in(const pybind11::object& given, const std::string& name);
 
 /// What has real numbers as an array. Throws ValueError that names the argument.
 pybind11::array real_numbers(const pybind11::object& given, const std::string& name, const std::string& expected);
 
 /// One number a particle; empty for None. Throws ValueError where there are not `count`.
-std::vector<float> column_of(const pybind11::object& array, std::size_t count, const std::string& name);
+std::vector<float> column_of(const pybind11::object& given, std::size_t count, const std::string& name);
 
 /// What was made, without copying: the array owns it.
 pybind11::array array_of(Image<Rgb8> picture);

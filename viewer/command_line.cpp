@@ -110,7 +110,7 @@ std::string for_painting(const Session& session, const Item& item, const Painted
       return fmt::format("wheatstone paint{} --display {}{}{} -o painted", files_of(item), shell_word(state.display),
                          plane_options(state, true), slices);
     const bool is_placed = !state.depth_regions.empty();
-    const std::string placed =
+    std::string placed =
         fmt::format("wheatstone paint{}{}{} -o painted", files_of(item), mapping_options(state, true), slices);
     const std::string pack =
         packed(state, is_placed ? "painted/painting.wst" : shell_word(item.front().string()) + slices,
@@ -120,8 +120,8 @@ std::string for_painting(const Session& session, const Item& item, const Painted
   }
   const bool for_display = shows_display_views(find_output_mode(state.mode));
   const std::string display = for_display ? fmt::format(" --display {}", shell_word(state.display)) : std::string();
-  const std::string paint = fmt::format("wheatstone paint{}{}{}{} -o painted", files_of(item),
-                                        style_options(state.style), plane_options(state, for_display), display);
+  std::string paint = fmt::format("wheatstone paint{}{}{}{} -o painted", files_of(item), style_options(state.style),
+                                  plane_options(state, for_display), display);
   if (!display.empty()) return paint;
   const std::string pack = packed(state, "painted/painting.wst" + slices, screen_px * state.adjustment.separation);
   return pack.empty() ? paint : fmt::format("{} && {}", paint, pack);

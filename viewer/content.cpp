@@ -155,7 +155,8 @@ Opened open_particles(const fs::path& path, const Listeners& listeners) {
   const double time = is_series ? reader->times().front() : 0;
   Opened opened{ParticlesContent{reader->read(listeners.quantity, time, listeners.progress)}, "particles", {}};
   if (is_series) opened.notes.push_back(fmt::format("a series of {} snapshots", reader->times().size()));
-  if (!is_series && series_pattern_of(path)) opened.notes.push_back("'open-series' plays all snapshots of this name");
+  if (!is_series && series_pattern_of(path))
+    opened.notes.emplace_back("'open-series' plays all snapshots of this name");
   opened.reader = std::move(reader);
   return opened;
 }

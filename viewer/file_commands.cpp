@@ -48,7 +48,7 @@ void open_series(Viewer& viewer, const Words& /*words*/) {
 }
 
 void save_seen_as(Viewer& viewer, const Words& words) {
-  const std::string format = words[0], path = words[1];
+  const std::string &format = words[0], &path = words[1];
   if (format == "picture") return run_command(viewer, find_command("save-picture"), {path});
   frame_of(viewer);
   const Session& session = viewer.session();

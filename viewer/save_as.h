@@ -39,6 +39,6 @@ std::vector<Image<Rgb8>> views_to_save(const SeenToSave& seen, int count, bool o
 
 /// Writes them as `wheatstone pack --to FORMAT` does and returns the name of what was written. Throws as that, and as
 /// views_to_save.
-std::string save_as(const SeenToSave& seen, const std::string& format, const std::filesystem::path& path);
+std::string save_as(const SeenToSave& given, const std::string& format, const std::filesystem::path& path);
 
 }  // namespace wheatstone::viewer

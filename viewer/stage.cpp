@@ -165,13 +165,28 @@ std::optional<PictureSize> screen_size_of(const ViewState& state) {
   }
 }
 
+namespace {
+
+/// Whether a painting's layers are shown from a side.
+bool stands_apart(const Content& content, const ViewState& state) {
+  const auto* const painted = std::get_if<PaintedContent>(&content);
+  return painted != nullptr && state.layers_apart_deg != 0 && painted->painting && can_stand_apart(*painted->painting);
+}
+
+}  // namespace
+
 Frame Stage::draw(const Content& content, const ViewState& state, const Viewport& viewport, Effort effort) {
   if (std::holds_alternative<std::monostate>(content))
     return {.picture = {viewport.width, viewport.height}, .right = {}, .places = {}, .shown = {}, .placed = {}};
   const Content& placed = drawer_.placed(content, state);
   const Content& shown = drawer_.bent(placed, state);
-  Frame frame = shows_display_views(find_output_mode(state.mode)) ? draw_display(shown, state, viewport)
-                                                                  : draw_eyes(shown, state, viewport, effort);
+  Frame frame;
+  if (shows_display_views(find_output_mode(state.mode)))
+    frame = draw_display(shown, state, viewport);
+  else if (stands_apart(shown, state))
+    frame = draw_apart(std::get<PaintedContent>(shown), state, viewport);
+  else
+    frame = draw_eyes(shown, state, viewport, effort);
   frame.shown = shown;
   frame.placed = placed;
   if (measured_ != shown) {
@@ -221,10 +236,21 @@ Frame Stage::draw_display(const Content& content, const ViewState& state, const 
           .placed = {}};
 }
 
+namespace {
+
+/// Where a view of the content lies in the picture for an eye, moved by so many pixels.
+ViewPlace place_of(ViewPosition view, PictureSize eye, const Fit& fit, double shift_px) {
+  return {.view = view,
+          .width = eye.width,
+          .height = eye.height,
+          .scale = fit.scale,
+          .origin_x = fit.origin_x + shift_px,
+          .origin_y = fit.origin_y};
+}
+
+}  // namespace
+
 Frame Stage::draw_eyes(const Content& content, const ViewState& state, const Viewport& viewport, Effort effort) {
-  if (const auto* const painted = std::get_if<PaintedContent>(&content);
-      painted && state.layers_apart_deg != 0 && painted->painting && can_stand_apart(*painted->painting))
-    return draw_apart(*painted, state, viewport);
   const OutputMode& mode = mode_for(content, state);
   const PictureSize eye = eye_size(mode, viewport);
   PictureSize size = size_of(content);
@@ -267,15 +293,8 @@ Frame Stage::draw_eyes(const Content& content, const ViewState& state, const Vie
         },
         left, right);
   if (first != last) show_what_both_show(size, fit, shift_left, shift_right, left, right);
-  const auto place_of = [&](std::size_t view, double shift) {
-    return ViewPlace{.view = drawn.positions[view],
-                     .width = eye.width,
-                     .height = eye.height,
-                     .scale = fit.scale,
-                     .origin_x = fit.origin_x + shift,
-                     .origin_y = fit.origin_y};
-  };
-  ViewPlace left_place = place_of(first, shift_left), right_place = place_of(last, shift_right);
+  ViewPlace left_place = place_of(drawn.positions[first], eye, fit, shift_left);
+  ViewPlace right_place = place_of(drawn.positions[last], eye, fit, shift_right);
   if (state.swap) {
     std::swap(left, right);
     std::swap(left_place, right_place);

@@ -31,11 +31,9 @@ CommandControls::CommandControls(std::string_view menu, bool with_choices, QForm
     if (command.menu != menu || command.entry.now == nullptr || command.entry.is_for_scripts) continue;
     if (command.entry.range.step > 0)
       rows_.push_back(slider_of(command, parent));
-    else if (!with_choices)
-      continue;
-    else if (command.arguments == "on|off")
+    else if (with_choices && command.arguments == "on|off")
       rows_.push_back(switch_of(command, parent));
-    else if (has_choices(command))
+    else if (with_choices && has_choices(command))
       rows_.push_back(box_of(command, parent));
     else
       continue;

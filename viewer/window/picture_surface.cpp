@@ -27,7 +27,7 @@ class PaintedSurface final : public QWidget, public PictureSurface {
   void show(const Frame& frame) override {
     const Image<Rgb8>& picture = frame.picture;
     image_ = QImage(reinterpret_cast<const uchar*>(picture.pixels().data()), picture.width(), picture.height(),
-                    picture.width() * 3, QImage::Format_RGB888)
+                    qsizetype{3} * picture.width(), QImage::Format_RGB888)
                  .copy();
     update();
   }

@@ -38,7 +38,7 @@ QIcon blank_thumbnail(const QPalette& palette) {
 
 QImage qimage_of(const Image<Rgb8>& picture) {
   return QImage(reinterpret_cast<const uchar*>(picture.pixels().data()), picture.width(), picture.height(),
-                picture.width() * 3, QImage::Format_RGB888)
+                qsizetype{3} * picture.width(), QImage::Format_RGB888)
       .copy();
 }
 

@@ -309,23 +309,25 @@ bool Window::pointer_event(QEvent* event) {
       show_depth_under_pointer();
       return true;
     }
-    case QEvent::Wheel: {
-      const auto* const wheel = static_cast<QWheelEvent*>(event);
-      const double steps = wheel->angleDelta().y() / 120.;
-      // With Alt, a wheel turns sideways.
-      if (const int aside = wheel->angleDelta().x(); wheel->modifiers().testFlag(Qt::AltModifier) && aside != 0) {
-        do_line(aside > 0 ? "slice-nearer" : "slice-farther", {});
-      } else if (wheel->modifiers().testFlag(Qt::ControlModifier)) {
-        do_line(steps > 0 ? "more-detail" : "less-detail", {});
-      } else if (steps != 0) {
-        const QPointF place = wheel->position() * ratio;
-        do_line("zoom-at",
-                {fmt::format("{}", std::pow(1.25, steps)), fmt::format("{}", place.x()), fmt::format("{}", place.y())});
-      }
+    case QEvent::Wheel:
+      turn_wheel(*static_cast<QWheelEvent*>(event), ratio);
       return true;
-    }
     default:
       return false;
+  }
+}
+
+void Window::turn_wheel(const QWheelEvent& wheel, double ratio) {
+  const double steps = wheel.angleDelta().y() / 120.;
+  // With Alt, a wheel turns sideways.
+  if (const int aside = wheel.angleDelta().x(); wheel.modifiers().testFlag(Qt::AltModifier) && aside != 0) {
+    do_line(aside > 0 ? "slice-nearer" : "slice-farther", {});
+  } else if (wheel.modifiers().testFlag(Qt::ControlModifier)) {
+    do_line(steps > 0 ? "more-detail" : "less-detail", {});
+  } else if (steps != 0) {
+    const QPointF place = wheel.position() * ratio;
+    do_line("zoom-at",
+            {fmt::format("{}", std::pow(1.25, steps)), fmt::format("{}", place.x()), fmt::format("{}", place.y())});
   }
 }
 

@@ -80,6 +80,7 @@ class Window final : public QMainWindow {
   bool compares_while_held(QEvent* event);
   bool pointer_event(QEvent* event);
   void drag_to(const QPointF& place);
+  void turn_wheel(const QWheelEvent& wheel, double ratio);
   void save_screenshot(const std::filesystem::path& path);
   std::vector<std::pair<std::string, double>> measured();
 

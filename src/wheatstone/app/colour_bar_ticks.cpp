@@ -83,7 +83,7 @@ ColourBarTicks colour_bar_ticks(const ToneSettings& tone, int length_px, int gap
   const auto fits = [&](const PlacedTick& one, const std::vector<PlacedTick>& others) {
     return std::ranges::all_of(others, [&](const PlacedTick& other) {
       return std::abs(one.tick.place - other.tick.place) * static_cast<float>(length_px) >=
-             static_cast<float>((one.width + other.width) / 2 + gap_px);
+             static_cast<float>(one.width + other.width + 2 * gap_px) / 2;
     });
   };
   const auto put = [&](const Class& numbers, int digits) {

@@ -159,7 +159,7 @@ void GpuComposer::run(const GpuBuffer& pixels, std::size_t first, std::size_t co
   work.view_count = static_cast<std::int32_t>(count);
   work.marks = marks ? 1 : 0;
   const GpuBuffer of_work(std::span<const ComposeWork>(&work, 1));
-  constexpr std::size_t pixels_a_group = 64 * 4, groups_a_row = 1024;
+  constexpr std::size_t pixels_a_group = 256, groups_a_row = 1024;
   const std::size_t picture_pixels = static_cast<std::size_t>(work.width) * static_cast<std::size_t>(work.height);
   parts_->compose_views.run({groups_a_row, groups_of(picture_pixels, pixels_a_group * groups_a_row)},
                             {&of_work, &pixels, &parts_->table, &to});

@@ -19,8 +19,7 @@ std::string texture_name(const std::filesystem::path& path, int texture) {
 
 std::string materials_of(const std::filesystem::path& path, const Model& model) {
   std::string text;
-  for (std::size_t m = 0; m < model.materials.size(); ++m) {
-    const ModelMaterial& material = model.materials[m];
+  for (const ModelMaterial& material : model.materials) {
     const auto code = [&](std::size_t c) { return srgb_from_linear(material.colour[c]) / 255.; };
     fmt::format_to(std::back_inserter(text), "newmtl {}\nKd {:.5f} {:.5f} {:.5f}\n", material.name, code(0), code(1),
                    code(2));

@@ -71,10 +71,7 @@ LinearColour ModelShading::lit(const Direction& normal, const Direction& to_came
 ModelShading::Surface::Surface(const ModelShading& shading, const ScreenTriangles& triangles, std::uint32_t index,
                                float view)
     : shading_(&shading), view_(view) {
-  const Model& model = shading.model_;
   const ScreenTriangle& screen = triangles.triangles[index];
-  const auto& vertices = model.triangles[screen.triangle];
-  const ModelMaterial& material = model.materials[model.material_of[screen.triangle]];
   std::array<double, 3> x{}, y{};
   for (std::size_t k = 0; k < 3; ++k) {
     x[k] = static_cast<double>(screen.x[k]) - static_cast<double>(view) * static_cast<double>(screen.disparity[k]);
@@ -91,7 +88,14 @@ ModelShading::Surface::Surface(const ModelShading& shading, const ScreenTriangle
     down_[k] = (x[b] - x[a]) * per_area;
     begin_[k] = (x[a] * y[b] - x[b] * y[a]) * per_area;
   }
+  set_corners(triangles, screen);
+  turned_ = is_turned(screen);
+}
 
+void ModelShading::Surface::set_corners(const ScreenTriangles& triangles, const ScreenTriangle& screen) {
+  const Model& model = shading_->model_;
+  const auto& vertices = model.triangles[screen.triangle];
+  const ModelMaterial& material = model.materials[model.material_of[screen.triangle]];
   // Values at the corners of a part are interpolated from those at the corners of the whole triangle.
   std::array<std::array<float, 3>, 3> share{};
   for (std::size_t k = 0; k < 3; ++k) {
@@ -101,7 +105,7 @@ ModelShading::Surface::Surface(const ModelShading& shading, const ScreenTriangle
       share[k] = triangles.parts[static_cast<std::size_t>(screen.part)][k];
   }
   const bool has_texture = material.texture >= 0 && !model.texture_places.empty();
-  if (has_texture) texture_ = &shading.textures_[static_cast<std::size_t>(material.texture)];
+  if (has_texture) texture_ = &shading_->textures_[static_cast<std::size_t>(material.texture)];
   const std::array<float, 256>& linear = linear_codes();
   for (std::size_t k = 0; k < 3; ++k) {
     normal_[k] = {};
@@ -121,8 +125,12 @@ ModelShading::Surface::Surface(const ModelShading& shading, const ScreenTriangle
     }
     for (std::size_t c = 0; c < 3; ++c) colour_[k][c] *= material.colour[c];
   }
+}
 
-  // Which side is seen: that of the triangle itself decides, since normals between its corners turn away at outlines.
+bool ModelShading::Surface::is_turned(const ScreenTriangle& screen) const {
+  const Model& model = shading_->model_;
+  const auto& vertices = model.triangles[screen.triangle];
+  // The triangle itself decides, since normals between its corners turn away at outlines.
   std::array<std::array<double, 3>, 2> edge{};
   for (std::size_t e = 0; e < 2; ++e)
     for (std::size_t axis = 0; axis < 3; ++axis)
@@ -132,15 +140,16 @@ ModelShading::Surface::Surface(const ModelShading& shading, const ScreenTriangle
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const std::size_t i = (axis + 1) % 3, j = (axis + 2) % 3;
     across_it[axis] = edge[0][i] * edge[1][j] - edge[0][j] * edge[1][i];
-    from_camera[axis] = shading.is_orthographic_ ? static_cast<double>(shading.scene_.camera.forward[axis])
-                                                 : model.positions[vertices[0]][axis] - shading.scene_.origin[axis] -
-                                                       static_cast<double>(shading.scene_.camera.position[axis]);
+    from_camera[axis] = shading_->is_orthographic_
+                            ? static_cast<double>(shading_->scene_.camera.forward[axis])
+                            : model.positions[vertices[0]][axis] - shading_->scene_.origin[axis] -
+                                  static_cast<double>(shading_->scene_.camera.position[axis]);
     for (std::size_t c = 0; c < 3; ++c)
       along_normals += across_it[axis] * static_cast<double>(model.normals[vertices[c]][axis]);
     along_sight += across_it[axis] * from_camera[axis];
   }
-  turned_ = (along_normals > 0) == (along_sight > 0);
-  if (screen.shows_other_side(static_cast<double>(view))) turned_ = !turned_;
+  const bool turned = (along_normals > 0) == (along_sight > 0);
+  return screen.shows_other_side(static_cast<double>(view_)) ? !turned : turned;
 }
 
 ModelShading::Surface::Point ModelShading::Surface::at(double x, double y) const {

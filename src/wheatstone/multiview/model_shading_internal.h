@@ -33,6 +33,9 @@ class ModelShading {
 
    private:
     friend class ModelShading;
+    void set_corners(const ScreenTriangles& triangles, const ScreenTriangle& screen);
+    bool is_turned(const ScreenTriangle& screen) const;
+
     const ModelShading* shading_;
     float view_;
     bool turned_ = false;                          ///< the model's normals point away from the camera

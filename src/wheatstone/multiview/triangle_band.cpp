@@ -62,7 +62,7 @@ void TriangleBand::Line::clear() {
 void TriangleBand::begin(int first_row, int end_row) {
   first_row_ = first_row;
   end_row_ = end_row;
-  const auto lines = static_cast<std::size_t>((end_row - first_row) * samples_);
+  const auto lines = static_cast<std::size_t>(end_row - first_row) * static_cast<std::size_t>(samples_);
   lines_.resize(std::max(lines, lines_.size()));
   for (Line& line : lines_) line.clear();
   nearest_.resize(lines * static_cast<std::size_t>(width_));

@@ -34,7 +34,8 @@ class TriangleBand {
 
   /// The triangles that the samples of a line show.
   std::span<const std::uint32_t> line(int row, int sample) const {
-    const auto line = static_cast<std::size_t>((row - first_row_) * samples_ + sample);
+    const auto line = static_cast<std::size_t>(row - first_row_) * static_cast<std::size_t>(samples_) +
+                      static_cast<std::size_t>(sample);
     return std::span(shown_).subspan(line * static_cast<std::size_t>(width_), static_cast<std::size_t>(width_));
   }
   int samples() const { return samples_; }

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <map>
 #include <set>
+#include <span>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -135,6 +137,42 @@ fs::path within(const fs::path& folder, const fs::path& file) {
   return way.empty() || *way.begin() == ".." ? file.filename() : way;
 }
 
+/// Takes what the names of files say: pairs, and photographs that are alone. `tell` is called before each.
+void take_named(const fs::path& folder, std::vector<FoundPhotograph> named,
+                const std::function<void(const fs::path&)>& tell, PhotographFolder& found) {
+  for (FoundPhotograph& photograph : named) {
+    photograph.left = folder / photograph.left;
+    if (!photograph.right.empty()) photograph.right = folder / photograph.right;
+    if (!photograph.depth.empty()) photograph.depth = folder / photograph.depth;
+    if (photograph.stem.empty()) photograph.stem = fs::canonical(folder).filename().string();
+    tell(photograph.left);
+    std::vector<LeftOutFile> wrong;
+    if (!photograph.right.empty()) wrong = wrong_with_pair(photograph);
+    if (wrong.empty()) found.photographs.push_back(std::move(photograph));
+    std::ranges::move(wrong, std::back_inserter(found.left_out));
+  }
+}
+
+/// Takes the files that are a photograph by themselves. Returns the others.
+std::vector<fs::path> take_whole(const fs::path& folder, std::span<const fs::path> names, const ReadViewsOptions& views,
+                                 const std::function<void(const fs::path&)>& tell, PhotographFolder& found) {
+  std::vector<fs::path> alone;
+  for (const fs::path& name : names) {
+    const fs::path file = folder / name;
+    tell(file);
+    try {
+      if (std::string how = how_by_itself(file, views); !how.empty())
+        found.photographs.push_back({stem_without_eye(name), file, {}, {}, std::move(how)});
+      else
+        alone.push_back(file);
+    } catch (const Error& error) {
+      if (error.kind() == ErrorKind::interrupted) throw;
+      found.left_out.push_back(left_out_for(file, error));
+    }
+  }
+  return alone;
+}
+
 }  // namespace
 
 PhotographFolder find_photographs(const fs::path& folder, const FindPhotographsOptions& options,
@@ -166,31 +204,8 @@ PhotographFolder find_photographs(const fs::path& folder, const FindPhotographsO
   for (LeftOutFile& file : named.left_out) file.file = folder / file.file;
   for (LeftOutFile& file : found.left_out) file.file = folder / file.file;
   std::ranges::move(named.left_out, std::back_inserter(found.left_out));
-  for (FoundPhotograph& photograph : named.photographs) {
-    photograph.left = folder / photograph.left;
-    if (!photograph.right.empty()) photograph.right = folder / photograph.right;
-    if (!photograph.depth.empty()) photograph.depth = folder / photograph.depth;
-    if (photograph.stem.empty()) photograph.stem = fs::canonical(folder).filename().string();
-    tell(photograph.left);
-    std::vector<LeftOutFile> wrong;
-    if (!photograph.right.empty()) wrong = wrong_with_pair(photograph);
-    if (wrong.empty()) found.photographs.push_back(std::move(photograph));
-    std::ranges::move(wrong, std::back_inserter(found.left_out));
-  }
-  std::vector<fs::path> alone;
-  for (const fs::path& name : named.rest) {
-    const fs::path file = folder / name;
-    tell(file);
-    try {
-      if (std::string how = how_by_itself(file, options.views); !how.empty())
-        found.photographs.push_back({stem_without_eye(name), file, {}, {}, std::move(how)});
-      else
-        alone.push_back(file);
-    } catch (const Error& error) {
-      if (error.kind() == ErrorKind::interrupted) throw;
-      found.left_out.push_back(left_out_for(file, error));
-    }
-  }
+  take_named(folder, std::move(named.photographs), tell, found);
+  const std::vector<fs::path> alone = take_whole(folder, named.rest, options.views, tell, found);
   PairsByTime timed = pairs_by_time(alone, progress);
   std::ranges::move(timed.left_out, std::back_inserter(found.left_out));
   for (FoundPhotograph& pair : timed.photographs) {

@@ -241,12 +241,10 @@ PairsByName pairs_by_name(std::span<const fs::path> files) {
       scene.by_folder = by_folder;
     };
     const auto folder = eye_folder(file);
-    const std::optional<EyeName> eye = eye_by_name(file);
-    if (is_stereo_file_name(file)) {
-      found.rest.push_back(file);
-    } else if (eye && eye->sure) {
-      put(*eye, fs::path(eye->stem).filename().string(), false);
-    } else if (folder && eyes_in[folder->above.generic_string()].size() == 2) {
+    const std::optional<EyeName> eye = is_stereo_file_name(file) ? std::nullopt : eye_by_name(file);
+    const bool is_in_pair_of_folders = !is_stereo_file_name(file) && folder &&
+                                       eyes_in[folder->above.generic_string()].size() == 2 && !(eye && eye->sure);
+    if (is_in_pair_of_folders) {
       const std::string below = folder->below.generic_string();
       put({.is_left = folder->eye.is_left,
            .scene = folder->above.generic_string() + "//" + below,

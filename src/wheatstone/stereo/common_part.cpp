@@ -40,7 +40,8 @@ int first_common_row(const Image<Rgb8>& taller, const Image<Rgb8>& lower) {
     if (first < 0 || first > most) continue;
     double difference = 0;
     for (int y = 0; y < rows; ++y)
-      difference += std::abs(of_taller[static_cast<std::size_t>(first + y)] - of_lower[static_cast<std::size_t>(y)]);
+      difference += std::abs(of_taller[static_cast<std::size_t>(first) + static_cast<std::size_t>(y)] -
+                             of_lower[static_cast<std::size_t>(y)]);
     if (difference < least) {
       least = difference;
       best = first;

@@ -186,7 +186,7 @@ Image<float> disparity_from_depth(ImageView<const float> depth, ImageView<const 
   Image<float> disparity = inverse_depth(depth, options.kind);
   check_known_anywhere(disparity, "the depth");
   const std::optional<InverseDepthRange> range = options.range ? options.range : range_of(disparity);
-  if (!range) return Image<float>(picture.width(), picture.height());
+  if (!range) return {picture.width(), picture.height()};
   scale_to(options.strength * static_cast<float>(picture.width()), *range, disparity);
   fill_from_farther_side(disparity);
   sharpen_edges(disparity, picture);

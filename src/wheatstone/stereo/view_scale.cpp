@@ -112,7 +112,7 @@ Image<std::uint8_t> every_nth(ImageView<const std::uint8_t> map, int factor, int
   for (int y = 0; y < height; ++y) {
     const auto from = map.row(factor * y);
     const auto to = smaller.row(y);
-    for (int x = 0; x < width; ++x) to[x] = from[factor * x];
+    for (std::size_t x = 0; x < to.size(); ++x) to[x] = from[static_cast<std::size_t>(factor) * x];
   }
   return smaller;
 }

@@ -103,7 +103,9 @@ Cells means_of(const CountedTrials& trials, int units, int cells, Unit unit_of, 
   std::vector<Mean> sums(static_cast<std::size_t>(units) * static_cast<std::size_t>(cells));
   for (const CountedTrial& trial : trials) {
     const int cell = cell_of(trial);
-    if (cell >= 0) sums[static_cast<std::size_t>(unit_of(trial) * cells + cell)].add(trial.value);
+    if (cell >= 0)
+      sums[static_cast<std::size_t>(unit_of(trial)) * static_cast<std::size_t>(cells) + static_cast<std::size_t>(cell)]
+          .add(trial.value);
   }
   Cells means(static_cast<std::size_t>(units), std::vector<double>(static_cast<std::size_t>(cells)));
   for (std::size_t i = 0; i < sums.size(); ++i)

@@ -65,6 +65,6 @@ struct StudyAnalysis {
 };
 
 /// Analyses all that there is, as Hassaine 2010, 3.2.3 does. Throws Error{bad_input} where there are no trials.
-StudyAnalysis analyse_study(const StudyData& data, const AnalysisOptions& options = {});
+StudyAnalysis analyse_study(const StudyData& all, const AnalysisOptions& options = {});
 
 }  // namespace wheatstone

@@ -123,8 +123,9 @@ float seen_share(const PathGraph& graph, int leaf, float viewing_distance_mm) {
   constexpr int across = 7;
   int points = 0, seen = 0;
   for (int i = 0; i < across * across; ++i) {
-    const float right = static_cast<float>(i % across * 2 + 1) / across - 1;
-    const float down = static_cast<float>(i / across * 2 + 1) / across - 1;
+    const int column = i % across, row = i / across;
+    const float right = static_cast<float>(2 * column + 1) / across - 1;
+    const float down = static_cast<float>(2 * row + 1) / across - 1;
     if (right * right + down * down > 1) continue;
     const std::array<float, 2> point{middle[0] + right * graph.node_radius_mm, middle[1] + down * graph.node_radius_mm};
     ++points;
@@ -148,7 +149,7 @@ void highlight(const PathGraphOptions& options, Lots& lots, PathGraph& graph) {
   const int per_group = options.nodes / 3;
   const auto links_of = [&](int leaf) {
     // Links stand in the order of their leaves, two for each.
-    return graph.links.begin() + 2 * (leaf < per_group ? leaf : leaf - per_group);
+    return graph.links.begin() + std::ptrdiff_t{2} * (leaf < per_group ? leaf : leaf - per_group);
   };
   for (int trial = 0; trial < most_trials; ++trial) {
     const std::array<int, 2> drawn{lots.below(per_group), 2 * per_group + lots.below(per_group)};

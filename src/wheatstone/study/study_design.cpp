@@ -106,10 +106,10 @@ ShownSettings with_levels(ShownSettings shown, const std::vector<const FactorLev
 /// The levels of the factors whose subjects are `between` in combination `number`; the last factor's change fastest.
 std::vector<const FactorLevel*> combination(const StudyDesign& design, bool between, int number) {
   std::vector<const FactorLevel*> levels;
-  for (const StudyFactor& factor : design.factors | std::views::reverse) {
-    if (factor.between != between) continue;
-    const int count = static_cast<int>(factor.levels.size());
-    levels.insert(levels.begin(), &factor.levels[static_cast<std::size_t>(number % count)]);
+  for (auto factor = design.factors.rbegin(); factor != design.factors.rend(); ++factor) {
+    if (factor->between != between) continue;
+    const int count = static_cast<int>(factor->levels.size());
+    levels.insert(levels.begin(), &factor->levels[static_cast<std::size_t>(number % count)]);
     number /= count;
   }
   return levels;

@@ -25,7 +25,7 @@ fs::path design_file_of(const fs::path& folder) { return folder / "code" / "desi
 
 Json read_description(const fs::path& folder) {
   const fs::path file = description_file(folder);
-  const Json description = Json::parse(read_whole_file(file, most_bytes), nullptr, false);
+  Json description = Json::parse(read_whole_file(file, most_bytes), nullptr, false);
   if (!description.is_object() || !description.value("Simulated", Json()).is_boolean())
     throw Error(ErrorKind::bad_input,
                 fmt::format("{}: is no description of a study, expected one by Wheatstone", file.string()));

@@ -106,10 +106,10 @@ std::vector<int> subjects_of_rows(const StudyFolder& folder, const TsvTable& tab
 Fields levels_between(const StudyDesign& design, int subject) {
   Fields levels;
   std::size_t rest = static_cast<std::size_t>(group_of_subject(design, subject));
-  for (const StudyFactor& factor : design.factors | std::views::reverse) {
-    if (!factor.between) continue;
-    levels.emplace(levels.begin(), factor.name, factor.levels[rest % factor.levels.size()].name);
-    rest /= factor.levels.size();
+  for (auto factor = design.factors.rbegin(); factor != design.factors.rend(); ++factor) {
+    if (!factor->between) continue;
+    levels.emplace(levels.begin(), factor->name, factor->levels[rest % factor->levels.size()].name);
+    rest /= factor->levels.size();
   }
   return levels;
 }
