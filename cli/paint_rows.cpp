@@ -13,6 +13,7 @@
 #include "slicing_options.h"
 #include "views_argument.h"
 #include "wheatstone/app/render_limits.h"
+#include "write_views_output.h"
 
 namespace wheatstone::cli {
 namespace {

@@ -18,12 +18,13 @@ BrushPicture brush_picture(std::string name, std::span<const std::uint8_t> cover
   picture.levels.resize(BrushPicture::all_bytes);
   for (std::size_t l = 1; l < BrushPicture::sizes.size(); ++l) {
     const auto& [columns, rows, first] = BrushPicture::sizes[l];
+    const auto width = static_cast<std::size_t>(columns), height = static_cast<std::size_t>(rows);
     const std::uint8_t* finer = picture.levels.data() + BrushPicture::sizes[l - 1].first;
-    for (int y = 0; y < rows; ++y) {
-      for (int x = 0; x < columns; ++x) {
-        const std::uint8_t* at = finer + (2 * y) * (2 * columns) + 2 * x;
-        const int sum = at[0] + at[1] + at[2 * columns] + at[2 * columns + 1];
-        picture.levels[first + static_cast<std::size_t>(y * columns + x)] = static_cast<std::uint8_t>((sum + 2) / 4);
+    for (std::size_t y = 0; y < height; ++y) {
+      for (std::size_t x = 0; x < width; ++x) {
+        const std::uint8_t* at = finer + 4 * y * width + 2 * x;
+        const int sum = at[0] + at[1] + at[2 * width] + at[2 * width + 1];
+        picture.levels[first + y * width + x] = static_cast<std::uint8_t>((sum + 2) / 4);
       }
     }
   }

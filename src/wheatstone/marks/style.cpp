@@ -72,7 +72,8 @@ Style style_by_name(std::string_view name) {
     style.brush = {.bristle_px = 1, .streaks = 12, .ridge = 8, .dry = 0.35f};
     return style;
   }
-  if (name == "impressionist") return style;
+  style.dual = name == "dual";
+  if (name == "impressionist" || style.dual) return style;
   if (name == "expressionist") {
     style.threshold = 50;
     style.curvature = 0.25f;
@@ -108,20 +109,11 @@ Style style_by_name(std::string_view name) {
     style.jitter.saturation = 0.5f;
     return style;
   }
-  if (name == "dual") {
-    style.dual = true;
-    return style;
-  }
-  if (name == "posterise") {
-    style.marks = Marks::regions;
-    return style;
-  }
-  if (name == "diffusion") {
-    style.marks = Marks::curves;
-    return style;
-  }
-  if (name == "mosaic") {
-    style.marks = Marks::tiles;
+  constexpr std::array<std::pair<std::string_view, Marks>, 3> of_other_marks{
+      {{"posterise", Marks::regions}, {"diffusion", Marks::curves}, {"mosaic", Marks::tiles}}};
+  for (const auto& [other, marks] : of_other_marks) {
+    if (name != other) continue;
+    style.marks = marks;
     return style;
   }
   throw Error(ErrorKind::wrong_usage,

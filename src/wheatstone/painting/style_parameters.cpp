@@ -139,6 +139,7 @@ StyleParameter choice(const Named& named, std::string_view help, Value Style::*m
           read_by};
 }
 
+// One table in the order of its rows. NOLINTNEXTLINE(readability-function-size)
 std::vector<StyleParameter> make_parameters() {
   using enum StyleSection;
   return {

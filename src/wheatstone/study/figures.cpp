@@ -33,8 +33,7 @@ Axis axis_around(double least, double most) {
 }
 
 std::string line(double x1, double y1, double x2, double y2, std::string_view colour = "#333") {
-  return fmt::format("<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" stroke=\"{}\"/>", x1, y1, x2, y2,
-                     colour);
+  return fmt::format(R"(<line x1="{:.1f}" y1="{:.1f}" x2="{:.1f}" y2="{:.1f}" stroke="{}"/>)", x1, y1, x2, y2, colour);
 }
 
 std::string axis_svg(const Axis& axis, double width, const std::string& title) {
@@ -42,10 +41,10 @@ std::string axis_svg(const Axis& axis, double width, const std::string& title) {
   for (double value = axis.least; value <= axis.most + axis.step / 2; value += axis.step) {
     const double y = axis.y(value);
     svg += line(plot_left, y, width, y, "#ddd");
-    svg += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"end\">{:g}</text>", plot_left - 6, y + 4,
+    svg += fmt::format(R"(<text x="{:.1f}" y="{:.1f}" text-anchor="end">{:g}</text>)", plot_left - 6, y + 4,
                        std::round(value / axis.step) * axis.step);
   }
-  return svg + fmt::format("<text transform=\"translate(14 {:.1f}) rotate(-90)\" text-anchor=\"middle\">{}</text>",
+  return svg + fmt::format(R"(<text transform="translate(14 {:.1f}) rotate(-90)" text-anchor="middle">{}</text>)",
                            plot_top + plot_height / 2, escaped(title));
 }
 
@@ -55,7 +54,7 @@ std::string column_label(double x, const std::string& name) {
   double line_x = x - 2;
   for (std::size_t begin = 0; begin <= name.size(); line_x += 15) {
     const std::size_t end = std::min(name.find(',', begin), name.size());
-    svg += fmt::format("<text transform=\"translate({:.1f} {:.1f}) rotate(-50)\" text-anchor=\"end\">{}</text>", line_x,
+    svg += fmt::format(R"(<text transform="translate({:.1f} {:.1f}) rotate(-50)" text-anchor="end">{}</text>)", line_x,
                        plot_top + plot_height + 16, escaped(name.substr(begin, end - begin)));
     begin = end + 1;
   }
@@ -64,10 +63,11 @@ std::string column_label(double x, const std::string& name) {
 
 std::string figure(std::size_t columns, const std::string& content) {
   // Labels lean to the left of their columns.
-  return fmt::format(
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"-60 0 {0:.0f} {1:.0f}\" width=\"{0:.0f}\" "
-      "height=\"{1:.0f}\" font-family=\"sans-serif\" font-size=\"12\" role=\"img\">{2}</svg>\n",
-      plot_left + column_width * static_cast<double>(columns) + 80, plot_top + plot_height + label_height, content);
+  return fmt::format(R"(<svg xmlns="http://www.w3.org/2000/svg" viewBox="-60 0 {0:.0f} {1:.0f}" width="{0:.0f}" )"
+                     R"(height="{1:.0f}" font-family="sans-serif" font-size="12" role="img">{2}</svg>)"
+                     "\n",
+                     plot_left + column_width * static_cast<double>(columns) + 80,
+                     plot_top + plot_height + label_height, content);
 }
 
 double middle_of(std::size_t column) { return plot_left + column_width * (static_cast<double>(column) + 0.5); }
@@ -112,7 +112,7 @@ std::string means_figure(const MeasureAnalysis& measure) {
       const double high = axis.y(mean.mean + mean.standard_error), low = axis.y(mean.mean - mean.standard_error);
       svg += line(x, high, x, low) + line(x - 5, high, x + 5, high) + line(x - 5, low, x + 5, low);
     }
-    svg += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"4.5\" fill=\"#1f5fa8\"/>", x, axis.y(mean.mean));
+    svg += fmt::format(R"(<circle cx="{:.1f}" cy="{:.1f}" r="4.5" fill="#1f5fa8"/>)", x, axis.y(mean.mean));
   }
   return figure(measure.means.size(), svg);
 }
@@ -132,12 +132,11 @@ std::string head_movement_figure(const std::vector<HeadMovement>& movement) {
     const double x = middle_of(i);
     svg += column_label(x, box.condition) + line(x, y(box.most), x, y(box.upper_quartile)) +
            line(x, y(box.lower_quartile), x, y(box.least));
-    svg +=
-        fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"24\" height=\"{:.1f}\" fill=\"#cfe0f3\" stroke=\"#333\"/>",
-                    x - 12, y(box.upper_quartile), y(box.lower_quartile) - y(box.upper_quartile));
+    svg += fmt::format(R"(<rect x="{:.1f}" y="{:.1f}" width="24" height="{:.1f}" fill="#cfe0f3" stroke="#333"/>)",
+                       x - 12, y(box.upper_quartile), y(box.lower_quartile) - y(box.upper_quartile));
     svg += line(x - 12, y(box.median), x + 12, y(box.median), "#1f5fa8");
     for (const double outside : box.outside)
-      svg += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"2\" fill=\"none\" stroke=\"#333\"/>", x, y(outside));
+      svg += fmt::format(R"(<circle cx="{:.1f}" cy="{:.1f}" r="2" fill="none" stroke="#333"/>)", x, y(outside));
   }
   return figure(movement.size(), svg);
 }

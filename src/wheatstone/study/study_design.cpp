@@ -80,10 +80,10 @@ const std::vector<Setting>& settings() {
                      [](ShownSettings& shown, float value) { shown.display.crosstalk = value; }),
       truth_setting("monoscopic", [](ShownSettings& shown, bool value) { shown.display.monoscopic = value; }),
       truth_setting("track_distance", [](ShownSettings& shown, bool value) { shown.display.tracks_distance = value; }),
-      name_setting<Quantised>("quantised", "\"head\" or \"eyes\"",
+      name_setting<Quantised>("quantised", R"("head" or "eyes")",
                               {{"head", Quantised::head}, {"eyes", Quantised::eyes}},
                               [](ShownSettings& shown, Quantised value) { shown.display.quantised = value; }),
-      name_setting<GraphPlacement>("placement", "\"planes\" or \"volume\"",
+      name_setting<GraphPlacement>("placement", R"("planes" or "volume")",
                                    {{"planes", GraphPlacement::planes}, {"volume", GraphPlacement::volume}},
                                    [](ShownSettings& shown, GraphPlacement value) { shown.placement = value; }),
   };
