@@ -142,6 +142,42 @@ void add_rows(CLI::App& app, const Rows& rows) {
   }
 }
 
+std::string plain_name_of(const Row& row) {
+  std::string name = name_of(row);
+  name.erase(0, name.find_first_not_of("-!"));
+  std::ranges::replace(name, '-', '_');
+  return name;
+}
+
+Given set_rows(const Rows& rows, std::span<const NamedWords> options) {
+  Given given;
+  for (const Row& row : rows) {
+    const std::string name = plain_name_of(row);
+    for (const auto& [option, words] : options) {
+      if (option != name) continue;
+      const bool is_switch = row.value.takes == Value::Takes::nothing;
+      if (is_switch && words != std::vector<std::string>{"true"} && words != std::vector<std::string>{"false"})
+        throw Error(ErrorKind::wrong_usage, fmt::format("{}: expected True or False", name));
+      if (is_switch && words.front() == "false") continue;
+      if (!is_switch && words.size() != (row.value.takes == Value::Takes::two ? 2u : 1u))
+        throw Error(ErrorKind::wrong_usage, fmt::format("{}: has {} words, expected one", name, words.size()));
+      row.value.set(name, is_switch && row.names.starts_with('!') ? std::vector<std::string>{"false"} : words);
+      given.options.push_back({name_of(row), words, row.value.takes});
+    }
+  }
+  for (const auto& [option, words] : options)
+    if (std::ranges::find(rows, option, plain_name_of) == rows.end())
+      throw Error(ErrorKind::wrong_usage, fmt::format("{}: there is no such option", option));
+  for (const Row& row : rows) {
+    if (!given(name_of(row))) continue;
+    if (!row.needs.empty() && !given(row.needs))
+      throw Error(ErrorKind::wrong_usage, fmt::format("{}: has no effect without {}", plain_name_of(row), row.needs));
+    for (const std::string& other : row.excludes)
+      if (given(other)) throw Error(ErrorKind::wrong_usage, fmt::format("{}: excludes {}", plain_name_of(row), other));
+  }
+  return given;
+}
+
 Given given_on(const CLI::App& app, const Rows& rows) {
   Given given;
   for (const Row& row : rows)

@@ -205,6 +205,17 @@ std::string name_of(const Row& row);
 /// Adds the options to the parser; a parsed line sets what they are bound to.
 void add_rows(CLI::App& app, const Rows& rows);
 
+/// An option as another program gives it: a row's name without dashes, as "look_at", and its words; of a switch "true"
+/// or "false".
+using NamedWords = std::pair<std::string, std::vector<std::string>>;
+
+/// Sets what the rows are bound to, without a line to parse. Throws Error{wrong_usage}, with the option's name as it is
+/// given, for one that no row has, and for options that need or exclude others.
+Given set_rows(const Rows& rows, std::span<const NamedWords> options);
+
+/// The name of a row's option as other programs give it: "look_at".
+std::string plain_name_of(const Row& row);
+
 /// Which of them were given.
 Given given_on(const CLI::App& app, const Rows& rows);
 

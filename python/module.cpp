@@ -8,6 +8,7 @@
 
 #include "bindings.h"
 #include "calls.h"
+#include "particles.h"
 #include "wheatstone/error.h"
 
 namespace py = pybind11;
@@ -49,6 +50,8 @@ PYBIND11_MODULE(_wheatstone, module) {
   wheatstone::python::add_end_of_calls(module);
   wheatstone::python::add_painting(module);
   wheatstone::python::add_particles(module);
+  wheatstone::python::add_render(module);
+  wheatstone::python::add_series(module);
   wheatstone::python::add_photographs(module);
   wheatstone::python::add_films(module);
   wheatstone::python::add_displays(module);

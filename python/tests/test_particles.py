@@ -5,6 +5,7 @@ import os
 import pathlib
 import subprocess
 import tempfile
+import tracemalloc
 import unittest
 
 import numpy as np
@@ -135,6 +136,155 @@ class FromOthers(unittest.TestCase):
         plain = wheatstone.column_density(POSITIONS, mass=np.ones(500), smoothing_length=np.full(500, 0.1), size=(64, 36))
         np.testing.assert_allclose(column.values, plain.values, rtol=1e-4, atol=1e-4)
         self.assertEqual(1 * unyt.Unit(column.units), 1 * unyt.Unit("Msun/kpc**2"))
+
+
+class InPlace(unittest.TestCase):
+    """Arrays are read where they lie; what the library keeps is single precision, relative to an origin."""
+
+    def taken(self, positions, mass):
+        """Bytes of NumPy's arrays that are made while particles are taken."""
+        tracemalloc.start()
+        gas = wheatstone.Particles(positions, mass=mass)
+        peak = tracemalloc.get_traced_memory()[1]
+        tracemalloc.stop()
+        return gas, peak
+
+    def test_double_precision_in_any_order_and_single_precision_columns_are_not_copied(self):
+        count = 200_000
+        positions = np.random.default_rng(3).normal(size=(count, 3))
+        mass = np.ones(count, np.float32)
+        for name, given in {"rows": positions, "columns": np.asfortranarray(positions),
+                            "every other": np.repeat(positions, 2, axis=0)[::2]}.items():
+            with self.subTest(name):
+                gas, peak = self.taken(given, mass)
+                self.assertLess(peak, 100_000)
+                np.testing.assert_allclose(gas.positions, positions, rtol=1e-5, atol=1e-5)
+        self.assertGreater(self.taken(positions.astype(np.float32), mass)[1], 8 * count)  # is converted, axis by axis
+
+    def test_units_that_need_no_change_are_not_copied(self):
+        for package, quantity, unit in [("unyt", "unyt_array", "kpc"), ("astropy.units", "Quantity", "kpc")]:
+            try:
+                made = getattr(__import__(package, fromlist=[quantity]), quantity)
+            except ImportError:
+                continue
+            with self.subTest(package):
+                positions = made(np.random.default_rng(3).normal(size=(200_000, 3)), unit)
+                wheatstone.Particles(positions[:5])  # what the package makes once
+                gas, peak = self.taken(positions, np.ones(200_000, np.float32))
+                self.assertLess(peak, 200_000)
+                self.assertEqual(gas.units["length"], "kpc")
+
+    def test_columns_that_come_back_share_their_memory(self):
+        gas = wheatstone.Particles(POSITIONS, mass=np.ones(500))
+        self.assertTrue(np.shares_memory(gas.mass, gas.mass))
+
+
+class FromTheCommandLine(unittest.TestCase):
+    """render() takes what the command line takes."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls._folder = tempfile.TemporaryDirectory()
+        cls.folder = pathlib.Path(cls._folder.name)
+        cls.run_program("synth", "universe", "--particles", "2000", "-o", "u.hdf5")
+        cls.run_program("synth", "universe", "--particles", "500", "--times", "0.4,0.6,0.8", "-o", "s_%03d.hdf5")
+        rows = "\n".join(f"{x:.4f} {y:.4f} {z:.4f} {1 + i % 3} {i % 50}" for i, (x, y, z) in enumerate(POSITIONS))
+        (cls.folder / "gas.txt").write_text("# x [kpc] y [kpc] z [kpc] mass [1e10*Msun] age [Gyr]\n" + rows + "\n")
+
+    @classmethod
+    def tearDownClass(cls):
+        cls._folder.cleanup()
+
+    @classmethod
+    def run_program(cls, *words):
+        subprocess.run([PROGRAM, *words, "--quiet"], check=True, cwd=cls.folder, stdout=subprocess.DEVNULL)
+
+    def test_options_give_the_same_bytes(self):
+        for options, words in [
+            ({"stretch": "log", "look_at": (100, 200, 300), "projection": "orthographic", "linear_colours": True},
+             ["--stretch", "log", "--look-at", "100,200,300", "--projection", "orthographic", "--linear-colours"]),
+            ({"depth_mapping": [(0, -50), (0.3, 0), (1, 60)], "smooth_depth": True, "method": "layered", "near": None},
+             ["--depth-mapping", "0:-50,0.3:0,1:60", "--smooth-depth", "--method", "layered"]),
+            ({"annotate": True, "size": (320, 180), "opaque": False}, ["--annotate", "--size", "320x180"]),
+            ({"exposure": 0.2}, ["--look", "thesis", "--exposure", "0.2"]),
+        ]:
+            with self.subTest(str(options)):
+                size = [] if "size" in options else ["--size", "96x54"]
+                self.run_program("render", "u.hdf5", *words, *size, "-o", "v")
+                options = {"size": (96, 54)} | options
+                theirs = wheatstone.load(self.folder / "v/view_001.png")
+                np.testing.assert_array_equal(wheatstone.render(self.folder / "u.hdf5", **options)[1], theirs)
+                np.testing.assert_array_equal(wheatstone.load(self.folder / "u.hdf5").render(**options)[1], theirs)
+
+    def test_quantities_come_from_files_and_arrays(self):
+        options = {"size": (96, 54), "views": 1, "least": 0, "most": 50}
+        of_file = wheatstone.render(self.folder / "gas.txt", quantity="age", **options)
+        self.assertEqual((of_file.facts["unit"], of_file.facts["quantity"]), ("Gyr", "age"))
+        ages, mass = np.arange(500) % 50, 1 + np.arange(500) % 3
+        of_arrays = wheatstone.render(np.round(POSITIONS, 4), mass=mass, quantity=ages, **options)
+        self.assertLess(np.abs(of_file.astype(int) - of_arrays).mean(), 0.5)
+        self.assertGreater(of_file.max(), 100)
+        mean = wheatstone.column_density(wheatstone.load(self.folder / "gas.txt"), quantity="age", size=(32, 18))
+        self.assertEqual(mean.units, "Gyr")
+        self.assertTrue(0 <= np.nanmin(mean.values) <= np.nanmax(mean.values) <= 49)
+
+    def test_units_are_those_of_unyt_and_astropy(self):
+        column = wheatstone.load(self.folder / "gas.txt").column_density(size=(32, 18))
+        self.assertEqual((column.units, column.length_units), ("1e+10*Msun/kpc**2", "kpc"))
+        for package in ("unyt", "astropy.units"):
+            try:
+                units = __import__(package, fromlist=["Unit"])
+            except ImportError:
+                continue  # python3-unyt or python3-astropy is not installed
+            with self.subTest(package):
+                ratio = (1 * units.Unit(column.units)).to(units.Unit("Msun/pc**2"))
+                self.assertAlmostEqual(float(getattr(ratio, "value", ratio)), 1e4, delta=1e-6)
+
+    def test_series_have_particles_at_any_time_and_frames(self):
+        series = wheatstone.Series(self.folder / "s_%03d.hdf5")
+        self.assertEqual(len(series), 3)
+        np.testing.assert_allclose(series.times, [0.4, 0.6, 0.8])
+        self.assertEqual(len(series[1]), len(series.at(0.5)))
+        self.run_program("render", "s_%03d.hdf5", "--frames", "3", "--orbit", "30", "--size", "96x54", "--views", "1",
+                         "-o", "f_%d.png")
+        frames = list(series.frames(3, orbit=30, size=(96, 54), views=1))
+        for number, frame in enumerate(frames):
+            np.testing.assert_array_equal(frame[0], wheatstone.load(self.folder / f"f_{number + 1}.png"))
+        self.assertAlmostEqual(frames[1].facts["redshift"], 1 / 0.6 - 1)
+        with self.assertRaisesRegex(ValueError, "time: is 0.9, expected from 0.4"):
+            series.at(0.9)
+        with self.assertRaisesRegex(ValueError, "snap_%03d.hdf5"):
+            wheatstone.Series(self.folder / "u.hdf5")
+
+    def test_models_and_slices_are_rendered_too(self):
+        self.run_program("synth", "model", "--triangles", "500", "-o", "m.obj")
+        self.assertGreater(wheatstone.render(self.folder / "m.obj", size=(96, 54), elevation=30).std(), 5)
+        wheatstone.Particles(POSITIONS).slices(size=(96, 54)).save(self.folder / "s.exr")
+        self.assertEqual(wheatstone.render(self.folder / "s.exr", views=5, near=20, far=30).shape, (5, 54, 96, 3))
+
+    def test_wrong_options_are_named(self):
+        render = wheatstone.render
+        for options, kind, message in [
+            ({"strech": "log"}, TypeError, "'strech'; did you mean 'stretch'"),
+            ({"quilt": "3x2"}, TypeError, "'quilt'"),
+            ({"stretch": "cubic"}, ValueError, "stretch: is 'cubic', expected asinh|log|linear"),
+            ({"focus_gain": 2}, ValueError, "^focus_gain: has no effect without focus"),
+            ({"opacity": 0.5}, ValueError, "^opacity: has no effect with look mass"),
+            ({"type": "gas"}, ValueError, "these particles are arrays"),
+            ({"background": "ffffff"}, ValueError, "^background: has no effect on what is no model"),
+        ]:
+            with self.subTest(str(options)), self.assertRaisesRegex(kind, message.replace("|", r"\|")):
+                render(POSITIONS, size=(32, 18), **options)
+        for name in ("stretch", "annotate", "depth_mapping", "look_at"):
+            self.assertRegex(render.__doc__, f"\n    {name}[ :]")
+
+    def test_notebooks_show_pairs_and_anaglyphs(self):
+        pair = wheatstone.render(POSITIONS, size=(64, 36))
+        anaglyph = wheatstone.pack(pair, "anaglyph")
+        for shown, width in [(pair, 128), (pair[0], 64), (anaglyph, 64)]:
+            png = shown._repr_png_()
+            self.assertEqual(int.from_bytes(png[16:20], "big"), width)
+        self.assertIsNone(anaglyph[0]._repr_png_())
 
 
 @unittest.skipUnless(os.environ.get("WHEATSTONE_LONG_TESTS"), "yt takes seconds to be imported")

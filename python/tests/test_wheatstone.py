@@ -195,6 +195,18 @@ class Package(unittest.TestCase):
         self.assertEqual(run.stderr, "")
         self.assertIn("radii = [6, 3]", run.stdout)
 
+    def test_examples_for_people_who_come_from_others_run(self):
+        page = (SOURCES / "docs/coming-from.md").read_text()
+        self.run_program("synth", "universe", "--particles", "2000", "-o", "snap.hdf5")
+        blocks = re.findall(r"^```python\n(.*?)^```", page, re.DOTALL | re.MULTILINE)
+        self.assertEqual(len(blocks), 1)
+        # What the tables have on the right, as far as it stands by itself.
+        calls = re.findall(r"`(gas\.(?:render|column_density)\([^`…]*\))", page)
+        self.assertGreater(len(calls), 3)
+        code = [blocks[0], "gas = wheatstone.load('snap.hdf5')", *calls]
+        run = subprocess.run([sys.executable, "-c", "\n".join(code)], cwd=self.folder, capture_output=True, text=True)
+        self.assertEqual(run.stderr, "")
+
     def test_show_opens_a_page_in_the_browser(self):
         browser = self.folder / "browser"
         browser.write_text(f"#!/bin/sh\ncp \"${{1#file://}}\" {self.folder}/opened.html\n")

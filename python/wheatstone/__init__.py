@@ -5,16 +5,16 @@ the leftmost first; disparities are float32 of shape (height, width), in pixels,
 the interpreter's lock and end with Ctrl-C.
 """
 
-from ._displays import Measures, Views, measure, pack, save, share
+from ._displays import Measures, Picture, Views, measure, pack, save, share
 from ._files import load
 from ._films import Film, Frame, Job, PaintedFrame, rotoscope
 from ._paintings import Geometry, Painting, Photograph, Rectified, match, paint, rectify, still
-from ._particles import Column, Particles, Slices, column_density, render
+from ._particles import Column, Particles, Series, Slices, column_density, render
 from ._styles import Style
 from ._wheatstone import __version__
 
 __all__ = [
     "Column", "Film", "Frame", "Geometry", "Job", "Measures", "PaintedFrame", "Painting", "Particles", "Photograph",
-    "Rectified", "Slices", "Style", "Views", "column_density", "load", "match", "measure", "pack", "paint", "rectify",
+    "Picture", "Rectified", "Series", "Slices", "Style", "Views", "column_density", "load", "match", "measure", "pack", "paint", "rectify",
     "render", "rotoscope", "save", "share", "still",
 ]

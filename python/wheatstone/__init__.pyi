@@ -7,7 +7,7 @@ import numpy.typing as npt
 
 __version__: str
 
-Picture = npt.NDArray[np.uint8]
+Pixels = npt.NDArray[np.uint8]
 Numbers = npt.NDArray[np.float32]
 Path = str | os.PathLike[str]
 
@@ -18,9 +18,12 @@ class YtData(Protocol):
     ds: Any
     def __getitem__(self, field: tuple[str, str], /) -> Any: ...
 
+class Picture(npt.NDArray[np.uint8]): ...
+
 class Views(npt.NDArray[np.uint8], Shown):
+    facts: dict[str, Any]
     @classmethod
-    def of(cls, array: Picture) -> Views: ...
+    def of(cls, array: npt.NDArray[np.uint8], facts: dict[str, Any] | None = ...) -> Views: ...
 
 @dataclasses.dataclass
 class Style:
@@ -61,14 +64,14 @@ class Style:
 class Geometry:
     left_disparity: Numbers
     right_disparity: Numbers
-    left_occlusion: Picture
-    right_occlusion: Picture
+    left_occlusion: Pixels
+    right_occlusion: Pixels
     found_share: float
 
 @dataclasses.dataclass
 class Rectified:
-    left: Picture
-    right: Picture
+    left: Pixels
+    right: Pixels
     measured_matches: int
     rows_before: tuple[float, float]
     rows_after: tuple[float, float]
@@ -81,18 +84,18 @@ class Photograph(Shown):
     disparity: Numbers | None = ...
     how: str = ...
     @property
-    def left(self) -> Picture: ...
+    def left(self) -> Pixels: ...
     @property
-    def right(self) -> Picture: ...
+    def right(self) -> Pixels: ...
     def rectify(self, *, calibration: Path | None = ..., match_colour: bool = ..., keep_size: bool = ...) -> Photograph: ...
     def match(self, quality: str = ...) -> Geometry: ...
     def paint(self, style: Path | Style = ..., *, quality: str = ...) -> Painting: ...
 
 class Painting(Shown):
     @property
-    def left(self) -> Picture: ...
+    def left(self) -> Pixels: ...
     @property
-    def right(self) -> Picture | None: ...
+    def right(self) -> Pixels | None: ...
     @property
     def width(self) -> int: ...
     @property
@@ -114,8 +117,8 @@ class Painting(Shown):
 
 @dataclasses.dataclass
 class Frame:
-    left: Picture
-    right: Picture | None
+    left: Pixels
+    right: Pixels | None
     seconds: float
 
 @dataclasses.dataclass
@@ -144,7 +147,6 @@ class Job:
     def result(self, timeout: float | None = ...) -> dict[str, Any]: ...
 
 class Particles:
-    units: dict[str, str]
     def __init__(
         self,
         positions: npt.ArrayLike,
@@ -153,6 +155,7 @@ class Particles:
         temperature: npt.ArrayLike | None = ...,
         smoothing_length: npt.ArrayLike | None = ...,
         mass: npt.ArrayLike | None = ...,
+        quantity: npt.ArrayLike | None = ...,
     ) -> None: ...
     @classmethod
     def load(cls, path: Path) -> Particles: ...
@@ -171,17 +174,22 @@ class Particles:
     def box_size(self) -> float: ...
     @property
     def format(self) -> str: ...
+    @property
+    def units(self) -> dict[str, str]: ...
     def render(self, **options: Any) -> Views: ...
     def column_density(self, **options: Any) -> Column: ...
-    def slices(
-        self,
-        *,
-        size: Sequence[int] = ...,
-        span: float = ...,
-        azimuth: float | None = ...,
-        elevation: float | None = ...,
-        zoom: float | None = ...,
-    ) -> Slices: ...
+    def slices(self, *, size: Sequence[int] = ..., span: float = ..., **options: Any) -> Slices: ...
+
+class Series:
+    def __init__(self, path: Path) -> None: ...
+    def __len__(self) -> int: ...
+    def __getitem__(self, number: int) -> Particles: ...
+    @property
+    def files(self) -> list[os.PathLike[str]]: ...
+    @property
+    def times(self) -> list[float]: ...
+    def at(self, time: float) -> Particles: ...
+    def frames(self, count: int = ..., *, orbit: float = ..., **options: Any) -> Iterator[Views]: ...
 
 class Slices(Shown):
     def __len__(self) -> int: ...
@@ -211,13 +219,13 @@ class Measures:
 
 def load(path: Path, *, layout: str = ...) -> Any: ...
 def still(size: tuple[int, int] = ..., *, seed: int = ...) -> Photograph: ...
-def match(left: Picture, right: Picture, quality: str = ...) -> Geometry: ...
+def match(left: Pixels, right: Pixels, quality: str = ...) -> Geometry: ...
 def rectify(
-    left: Picture, right: Picture, *, calibration: Path | None = ..., match_colour: bool = ..., keep_size: bool = ...
+    left: Pixels, right: Pixels, *, calibration: Path | None = ..., match_colour: bool = ..., keep_size: bool = ...
 ) -> Rectified: ...
 def paint(
-    left: Picture,
-    right: Picture,
+    left: Pixels,
+    right: Pixels,
     style: Path | Style = ...,
     *,
     quality: str = ...,
@@ -257,13 +265,8 @@ def render(
     temperature: npt.ArrayLike | None = ...,
     smoothing_length: npt.ArrayLike | None = ...,
     mass: npt.ArrayLike | None = ...,
-    views: int = ...,
-    size: Sequence[int] = ...,
-    span: float = ...,
-    azimuth: float | None = ...,
-    elevation: float | None = ...,
-    zoom: float | None = ...,
-    exposure: float | None = ...,
+    quantity: npt.ArrayLike | None = ...,
+    **options: Any,
 ) -> Views: ...
 def column_density(
     particles: Path | Particles | YtData | npt.ArrayLike,
@@ -271,20 +274,18 @@ def column_density(
     mass: npt.ArrayLike | None = ...,
     smoothing_length: npt.ArrayLike | None = ...,
     size: Sequence[int] = ...,
-    azimuth: float | None = ...,
-    elevation: float | None = ...,
-    zoom: float | None = ...,
+    **options: Any,
 ) -> Column: ...
 def pack(
-    views: Picture | Sequence[Picture] | Photograph | Painting,
+    views: Pixels | Sequence[Pixels] | Photograph | Painting,
     to: str = ...,
     *,
     quilt: tuple[int, int] = ...,
     screen: Path = ...,
     screen_disparity: float = ...,
 ) -> Picture: ...
-def save(path: Path, picture: Picture | Sequence[Picture] | Photograph | Painting) -> None: ...
-def measure(left: Picture, right: Picture, disparity: Numbers) -> Measures: ...
+def save(path: Path, picture: Pixels | Sequence[Pixels] | Photograph | Painting) -> None: ...
+def measure(left: Pixels, right: Pixels, disparity: Numbers) -> Measures: ...
 def share(
     shown: Shown, path: Path, *, title: str = ..., caption: str = ..., description: str = ...
 ) -> None: ...

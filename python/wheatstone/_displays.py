@@ -11,25 +11,46 @@ from ._notebook import Shown, words_for
 class Views(np.ndarray, Shown):
     """Views of one scene: an array of uint8 and shape (number, height, width, 3), which notebooks show."""
 
+    facts: dict = {}
+    """What the library tells of how they were made."""
+
     @classmethod
-    def of(cls, array):
+    def of(cls, array, facts=None):
         """The same array, not copied."""
-        return array.view(cls)
+        views = array.view(cls)
+        views.facts = facts or {}
+        return views
+
+    def __array_finalize__(self, source):
+        self.facts = getattr(source, "facts", {})
 
     def _page(self, words):
         return _wheatstone.page_of_views(np.ascontiguousarray(self), words)
 
     def _still(self):
-        return np.asarray(self[len(self) // 2])
+        """Both eyes side by side, or of other numbers of views the one in the middle."""
+        return np.concatenate(list(np.asarray(self)), axis=1) if len(self) == 2 else np.asarray(self[len(self) // 2])
 
     def _is_whole(self):
         return self.ndim == 4 and self.dtype == np.uint8
 
     def _repr_png_(self):
-        return super()._repr_png_() if self._is_whole() else None
+        return super()._repr_png_() if self._is_whole() else _png_of(self)
 
     def _repr_html_(self):
         return super()._repr_html_() if self._is_whole() else None
+
+
+class Picture(np.ndarray):
+    """One picture, an array of uint8 and shape (height, width, 3), which notebooks show."""
+
+    def _repr_png_(self):
+        return _png_of(self)
+
+
+def _png_of(array):
+    is_picture = array.ndim == 3 and array.shape[2] == 3 and array.dtype == np.uint8 and array.size > 0
+    return _wheatstone.png(np.ascontiguousarray(array)) if is_picture else None
 
 
 def _views_of(given):
@@ -58,7 +79,7 @@ def _stacked(pictures):
 
 
 def pack(views, to="anaglyph", *, quilt=(8, 6), screen="", screen_disparity=0.0):
-    """One picture of views in the format of a display.
+    """One picture of views in the format of a display, which notebooks show.
 
     `to` is anaglyph or a kind of it, a layout ("left-right", "top-bottom-half", …), "quilt", of `quilt` columns and
     rows, or "lenticular" for `screen`, the name of a display or its calibration (.json). Of a painting the two eyes are
@@ -66,7 +87,8 @@ def pack(views, to="anaglyph", *, quilt=(8, 6), screen="", screen_disparity=0.0)
     """
     return _wheatstone.pack(
         _views_of(views), _arguments.text("to", to), _arguments.two_whole("quilt", quilt, "(columns, rows)"),
-        _arguments.path("screen", screen) if screen else b"", _arguments.number("screen_disparity", screen_disparity))
+        _arguments.path("screen", screen) if screen else b"",
+        _arguments.number("screen_disparity", screen_disparity)).view(Picture)
 
 
 def save(path, picture):

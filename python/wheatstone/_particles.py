@@ -5,34 +5,39 @@ import os
 
 import numpy as np
 
-from . import _arguments, _wheatstone
+from . import _arguments, _render_options, _wheatstone
 from ._displays import Views
 from ._notebook import Shown
 
-_COLUMNS = ("density", "temperature", "smoothing_length", "mass")
+_COLUMNS = ("density", "temperature", "smoothing_length", "mass", "quantity")
 
 
 class Particles:
     """Particles of a file (GADGET, HDF5, PLY, LAS, NumPy, FITS or text), or of arrays; one number a particle each.
 
-    Columns that they do not have are None.
+    Columns that they do not have are None. `quantity` is a column of any kind, which render(quantity="quantity") shows.
     """
 
-    def __init__(self, positions, *, density=None, temperature=None, smoothing_length=None, mass=None):
+    def __init__(self, positions, *, density=None, temperature=None, smoothing_length=None, mass=None, quantity=None):
         length = _unit_of(positions)
         if length:
             smoothing_length = _in_unit(smoothing_length, length)
-        columns = {"density": density, "temperature": temperature, "smoothing_length": smoothing_length, "mass": mass}
+        columns = {"density": density, "temperature": temperature, "smoothing_length": smoothing_length, "mass": mass,
+                   "quantity": quantity}
         with np.errstate(over="ignore"):  # numbers beyond single precision are an error
             self._made = _wheatstone.Particles(positions, columns)
-        self.units = {name: unit for name, unit in (("length", length), ("mass", _unit_of(mass))) if unit}
+        units = {"length": length} | {name: _unit_of(columns[name]) for name in ("mass", "density", "quantity")}
+        self._made.units = [(name, unit) for name, unit in units.items() if unit]
 
     @classmethod
     def load(cls, path):
         """Those of a file."""
+        return cls._of(_wheatstone.load_particles(_arguments.path("path", path)))
+
+    @classmethod
+    def _of(cls, made):
         particles = cls.__new__(cls)
-        particles._made = _wheatstone.load_particles(_arguments.path("path", path))
-        particles.units = dict(particles._made.units)
+        particles._made = made
         return particles
 
     def __len__(self):
@@ -68,6 +73,11 @@ class Particles:
     def format(self):
         return self._made.format
 
+    @property
+    def units(self):
+        """Of "length", "mass" and columns, as far as they are known: texts that unyt and astropy.units parse."""
+        return dict(self._made.units)
+
     def render(self, **options):
         """As render() does."""
         return render(self, **options)
@@ -76,10 +86,9 @@ class Particles:
         """As column_density() does."""
         return column_density(self, **options)
 
-    def slices(self, *, size=(640, 360), span=4.0, azimuth=None, elevation=None, zoom=None):
-        """Slices in depth, from which views up to `span` eye separations apart are made."""
-        options = _options(2, size, span, azimuth=azimuth, elevation=elevation, zoom=zoom)
-        return Slices(_wheatstone.slices(self._made, options))
+    def slices(self, *, size=(640, 360), span=4.0, **options):
+        """Slices in depth, from which views up to `span` eye separations apart are made, with options as render()'s."""
+        return Slices(_wheatstone.slices(self._made, _words("slices", size=size, span=span, **options)))
 
 
 class Slices(Shown):
@@ -113,7 +122,7 @@ class Slices(Shown):
 
 @dataclasses.dataclass(eq=False)
 class Column:
-    """Mass per area along the lines of sight."""
+    """Mass per area along the lines of sight, or the mean of a quantity."""
 
     values: np.ndarray
     """Of shape (height, width), the top row first, in units of mass and length of what was given."""
@@ -125,44 +134,91 @@ class Column:
     """Of the extent, where it is known."""
 
 
-def render(particles, *, density=None, temperature=None, smoothing_length=None, mass=None, views=2, size=(640, 360),
-           span=1.0, azimuth=None, elevation=None, zoom=None, exposure=None):
+class Series:
+    """Snapshots of one simulation: a name with a number, as "snap_%03d.hdf5"."""
+
+    def __init__(self, path):
+        self._made = _wheatstone.Series(os.fsdecode(_arguments.path("path", path)))
+
+    def __len__(self):
+        return len(self._made.files)
+
+    def __getitem__(self, number):
+        """One of the snapshots."""
+        return Particles.load(self.files[number])
+
+    @property
+    def files(self):
+        return self._made.files
+
+    @property
+    def times(self):
+        """Of the snapshots, as their headers tell them."""
+        return self._made.times
+
+    def at(self, time):
+        """The particles at a time between the first snapshot and the last, moved along their velocities."""
+        return Particles._of(self._made.at(_arguments.number("time", time)))
+
+    def frames(self, count=0, *, orbit=0.0, **options):
+        """The views of a film's frames, one after the other, with options as render()'s.
+
+        There are `count` of them, one a snapshot for 0; the camera turns by `orbit` degrees. Colours, brightness and what
+        the views show are the same in all frames.
+        """
+        made = self._made.frames(_words("frames", **options), _arguments.whole("count", count, 0),
+                                 _arguments.number("orbit", orbit))
+        return (Views.of(*made.frame(number)) for number in range(len(made)))
+
+
+def render(particles, *, density=None, temperature=None, smoothing_length=None, mass=None, quantity=None, **options):
     """Views of particles, leftmost first, as an array of shape (views, height, width, 3).
 
     `particles` is a file, Particles, a data container of yt, or positions of shape (number, 3), which may have units as
-    those of unyt and astropy have. The views show mass; with `exposure` they are those of `--look thesis`.
-    """
-    made = _particles_of(particles, density=density, temperature=temperature, smoothing_length=smoothing_length,
-                         mass=mass)
-    options = _options(views, size, span, azimuth=azimuth, elevation=elevation, zoom=zoom, exposure=exposure)
-    return Views.of(_wheatstone.render(made._made, options))
+    those of unyt have; columns are arrays beside positions, and names of datasets beside a file. A file may also be one of
+    slices or a model. What is told of the views, as the limits and the unit of their colours, is their `facts`.
+
+    All other options are those of `wheatstone render`. None stands for one that is not given:
+
+"""
+    columns = {"density": density, "temperature": temperature, "smoothing_length": smoothing_length, "mass": mass,
+               "quantity": quantity}
+    options |= {name: value for name, value in columns.items() if isinstance(value, str)}
+    columns = {name: value for name, value in columns.items() if value is not None and not isinstance(value, str)}
+    if "quantity" in columns:
+        options["quantity"] = "quantity"
+    words = _words("render", **options)
+    if isinstance(particles, (str, os.PathLike)):
+        _refuse_columns(columns, "a file")
+        return Views.of(*_wheatstone.render_file(_arguments.path("particles", particles), words))
+    return Views.of(*_wheatstone.render(_particles_of(particles, **columns)._made, words))
 
 
-def column_density(particles, *, mass=None, smoothing_length=None, size=(640, 360), azimuth=None, elevation=None,
-                   zoom=None):
+render.__doc__ += _render_options.help_text() + "\n"
+
+
+def column_density(particles, *, mass=None, smoothing_length=None, size=(640, 360), **options):
     """The column density of particles, seen orthographically; each counts 1 where no mass is given.
 
-    `particles` is what render() takes.
+    `particles` and options are what render() takes. With `quantity`, the mean of that quantity along the lines of sight.
     """
     made = _particles_of(particles, smoothing_length=smoothing_length, mass=mass)
-    options = _options(1, size, 1.0, azimuth=azimuth, elevation=elevation, zoom=zoom)
-    values, pixel = _wheatstone.column_density(made._made, options)
+    values, pixel, unit = _wheatstone.values(made._made, _words("column_density", views=1, size=size, **options))
     height, width = values.shape
     extent = (-width * pixel / 2, width * pixel / 2, -height * pixel / 2, height * pixel / 2)
-    length, mass_unit = made.units.get("length", made.units.get("x", "")), made.units.get("mass", "")
-    if made.mass is None:
-        mass_unit = "1"
-    return Column(values, extent, _wheatstone.column_unit(mass_unit, length), length)
+    length = made.units.get("length", made.units.get("x", ""))
+    if not options.get("quantity"):
+        unit = _wheatstone.column_unit("1" if made.mass is None else made.units.get("mass", ""), length)
+    elif unit == "code_unit":  # not known
+        unit = ""
+    return Column(values, extent, unit, length)
 
 
-def _options(views, size, span, **camera):
-    options = _wheatstone.RenderOptions(_arguments.whole("views", views),
-                                        _arguments.two_whole("size", size, "(width, height)"),
-                                        _arguments.number("span", span))
-    for name, value in camera.items():
-        if value is not None:
-            setattr(options, name, _arguments.number(name, value))
-    return options
+def _words(function, **options):
+    for name in ("views", "size", "span"):
+        if name in options and options[name] is None:
+            _arguments.two_whole(name, None, "(width, height)") if name == "size" else _arguments.number(name, None)
+    return _render_options.words_of(function, options)
 
 
 def _particles_of(given, **columns):
