@@ -8,6 +8,7 @@
 #include "commands.h"
 #include "wheatstone/app/output_folder.h"
 #include "wheatstone/error.h"
+#include "wheatstone/study/published.h"
 #include "wheatstone/study/simulate.h"
 #include "wheatstone/study/study_folder.h"
 
@@ -19,6 +20,7 @@ struct StudySimulateArguments {
   std::optional<int> subjects;
   int studies = 0;
   std::vector<std::string> effects;
+  bool published = false;
   SimulatedObservers observers;
   std::string folder = "simulated";
 };
@@ -63,6 +65,7 @@ std::string simulation_text(const StudySimulateArguments& arguments, int subject
                                  seed, observers.response_time_s, observers.noise_s, observers.between_subjects_s,
                                  observers.correct, observers.lapses);
   for (const std::string& effect : arguments.effects) text += fmt::format(", effect {}", effect);
+  if (arguments.published) text += ", as published";
   return text;
 }
 
@@ -88,6 +91,7 @@ Report run_study_simulate(const StudySimulateArguments& given, const Session& se
   const StudyDesign design = load_study_design(arguments.design);
   for (const std::string& effect : arguments.effects) arguments.observers.effects.push_back(parse_effect(effect));
   check_effects(design, arguments.observers);
+  if (arguments.published) arguments.observers = observers_as_published(design, arguments.observers);
   const int subjects = arguments.subjects.value_or(design.subjects);
   return arguments.studies > 0 ? report_power(design, arguments, subjects, session)
                                : write_data(design, arguments, subjects, session);
@@ -105,6 +109,9 @@ Rows simulate_rows(StudySimulateArguments& a) {
       row("--effect", of_type("EFFECT", texts(a.effects)),
           "FACTOR=LEVEL:SECONDS[:SHARE]: what a level adds to response times, and to the probability of a right answer "
           "or to ratings; may be given several times"),
+      row("--published", flag(a.published),
+          "Observers whose answers have the means that were published of this design, and its deviations of ratings",
+          {}, {}, {"--effect", "--time", "--correct", "--lapses"}),
       row("--time", number(observers.response_time_s, {0.5, 1000}), "Mean response time in seconds"),
       row("--noise", number(observers.noise_s, {0, 1000}), "Standard deviation of a subject's response times"),
       row("--between", number(observers.between_subjects_s, {0, 1000}), "Standard deviation of subjects' mean times"),
@@ -119,6 +126,7 @@ Command study_simulate_command() {
                       simulate_rows, run_study_simulate,
                       R"(Examples:
   wheatstone study simulate path-searching-1 --effect depth_cm=10:-1.24:0.04 -o data
+  wheatstone study simulate painting-comfort --published -o rehearsal
   wheatstone study simulate path-searching-2 --subjects 15 --effect views_per_10cm=8:-3 --studies 200)");
 }
 

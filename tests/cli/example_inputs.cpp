@@ -160,6 +160,7 @@ const std::map<std::string, Maker>& makers() {
          write_image(path / "tree_L.png", detailed_photographs().left);
          write_image(path / "tree_R.png", detailed_photographs().right);
          make_multi_picture(path / "house.mpo");
+         make_multi_picture(path / "garden.mpo");
        }},
       {"painted",
        [](const fs::path& path) {

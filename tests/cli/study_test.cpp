@@ -1,14 +1,24 @@
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "cli/run_program.h"
+#include "scenes/test_photographs.h"
 #include "temporary_folder.h"
+#include "throws_error.h"
+#include "wheatstone/app/comfort_stimuli.h"
+#include "wheatstone/pictures/write_image.h"
 #include "wheatstone/study/path_graph.h"
+#include "wheatstone/study/study_design.h"
+#include "wheatstone/study/trial_plan.h"
 
 namespace wheatstone::study_test {
 
+namespace fs = std::filesystem;
 using testing::HasSubstr;
 
 TEST(StudyCommand, DrawsGraphsOfWhichHalfAreYes) {
@@ -35,6 +45,64 @@ TEST(StudyCommand, ManyViewsAreNumbered) {
 TEST(StudyCommand, AStimulusThatCannotBeDrawnIsRefused) {
   expect_refused(TemporaryFolder(), {"study", "stimuli", "--nodes", "91"}, 3,
                  "nodes: is 91, expected a multiple of three");
+}
+
+TEST(StudyCommand, MakesAStudyOfComfortOfAFolderOfPhotographs) {
+  const TemporaryFolder folder;
+  fs::create_directory(folder / "photographs");
+  constexpr int photographs = 10;
+  for (int number = 1; number <= photographs; ++number) {
+    const StereoPair pair = still_for_test(192, 144, static_cast<std::uint64_t>(number));
+    write_image(folder / fmt::format("photographs/{}_L.png", number), pair.left);
+    write_image(folder / fmt::format("photographs/{}_R.png", number), pair.right);
+  }
+  const auto run = [&](std::vector<std::string> words) {
+    words.insert(words.begin(), "study");
+    words.emplace_back("--json");
+    const ProgramResult result = run_program(words, {.folder = folder / ""});
+    EXPECT_EQ(result.exit_code, 0) << result.errors;
+    return nlohmann::json::parse(result.output);
+  };
+  EXPECT_EQ(run({"stimuli", "comfort", "--photographs", "photographs", "-o", "comfort"})["photographs"], photographs);
+  for (const char* name : {"design.toml", "instructions.html", "photographs.tsv"})
+    EXPECT_TRUE(fs::exists(folder / (std::string("comfort/") + name))) << name;
+  EXPECT_EQ(files_in(folder / "comfort/stimuli").size(), 6u * photographs);
+  EXPECT_THAT(bytes_of(folder / "comfort/instructions.html"), HasSubstr("wheatstone study run comfort/design.toml"));
+  // The consistent eyes agree better than those that were painted apart.
+  const auto difference_of = [&](const std::string& version) {
+    const std::string name = "comfort/stimuli/02_", left = "_left.png", right = "_right.png";
+    const ProgramResult result =
+        run_program({"measure", "stereo", name + version + left, name + version + right, "--photographs",
+                     name + "original" + left, name + "original" + right, "--json"},
+                    {.folder = folder / ""});
+    EXPECT_EQ(result.exit_code, 0) << result.errors;
+    return nlohmann::json::parse(result.output)["stylised"]["left_right_mean_absolute"].get<double>();
+  };
+  EXPECT_LT(2 * difference_of("consistent"), difference_of("inconsistent"));
+  // The study is rehearsed, and the order of the paper comes out.
+  run({"simulate", "comfort/design.toml", "--published", "-o", "rehearsal"});
+  const auto rating = run({"analyse", "rehearsal", "--against", "published", "-o", "analysis"})["published"]["rating"];
+  EXPECT_EQ(rating["rank_correlation"], 1);
+  for (const auto& [condition, beside] : rating["conditions"].items())
+    EXPECT_NEAR(beside["mean"].get<double>(), beside["published_mean"].get<double>(), 0.2) << condition;
+  expect_refused(folder, {"study", "stimuli", "comfort"}, 2, "--photographs");
+  expect_refused(folder, {"study", "stimuli", "dots", "--photographs", "photographs"}, 2, "--photographs");
+  expect_refused(folder, {"study", "stimuli", "comfort", "--photographs", "photographs", "--nodes", "30"}, 2,
+                 "--nodes");
+  expect_refused(folder, {"study", "simulate", "two-or-forty-five", "--published"}, 3, "has no published means");
+}
+
+TEST(StudyCommand, DesignsOfComfortAreBalancedForAnyNumberOfPhotographs) {
+  for (const int count : {3, 4, 10, 20, 23}) {
+    std::vector<std::string> names;
+    for (int i = 0; i < count; ++i) names.push_back(fmt::format("{:02}", i + 1));
+    const StudyDesign design = parse_study_design(comfort_design(names), "design.toml");
+    EXPECT_EQ(design.item_count, count);
+    EXPECT_EQ(design.repetitions, std::min(count / 3, 4));
+    EXPECT_TRUE(count_balance(design).items) << count;
+    EXPECT_LE(design.subjects, 30 + 3 * count);
+  }
+  expect_error(ErrorKind::wrong_usage, "there are 2 photographs", [] { comfort_design({"a", "b"}); });
 }
 
 TEST(StudyCommand, TellsTheThesisDegreesOfFreedom) {

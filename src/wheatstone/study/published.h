@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "wheatstone/study/analysis.h"
+#include "wheatstone/study/simulate.h"
 
 namespace wheatstone {
 
@@ -25,5 +26,9 @@ struct PublishedComparison {
 /// The measures and conditions of which both are known. Throws Error{bad_input} where the design has no published means
 /// of what was measured.
 std::vector<PublishedComparison> beside_published(const StudyDesign& design, const StudyAnalysis& analysis);
+
+/// Observers whose answers have the published means of the design, and of ratings their deviations, too; the rest is as
+/// given. Throws Error{bad_input} where the design has none.
+SimulatedObservers observers_as_published(const StudyDesign& design, SimulatedObservers observers);
 
 }  // namespace wheatstone

@@ -26,12 +26,15 @@ double log_normal(double mean, double deviation, Lots& lots) {
 SimulatedEffect sum_of_effects(const StudyDesign& design, const SimulatedObservers& observers,
                                const StudyCondition& condition) {
   SimulatedEffect sum;
-  for (const SimulatedEffect& effect : observers.effects)
+  for (const SimulatedEffect& effect : observers.effects) {
+    bool holds = condition.name == effect.condition;
     for (std::size_t i = 0; i < design.factors.size(); ++i)
-      if (design.factors[i].name == effect.factor && condition.levels[i] == effect.level) {
-        sum.seconds += effect.seconds;
-        sum.share += effect.share;
-      }
+      holds = holds || (design.factors[i].name == effect.factor && condition.levels[i] == effect.level);
+    if (!holds) continue;
+    sum.seconds += effect.seconds;
+    sum.share += effect.share;
+    if (effect.rating_noise > 0) sum.rating_noise = effect.rating_noise;
+  }
   return sum;
 }
 
@@ -62,6 +65,7 @@ void move_head(const StudyCondition& condition, Lots& lots, TrialRecord& record)
 
 void check_effects(const StudyDesign& design, const SimulatedObservers& observers) {
   for (const SimulatedEffect& effect : observers.effects) {
+    if (!effect.condition.empty()) continue;
     const auto factor = std::ranges::find(design.factors, effect.factor, &StudyFactor::name);
     if (factor == design.factors.end())
       throw Error(ErrorKind::bad_input, fmt::format("effect: '{}' is no factor of {}", effect.factor, design.name));
@@ -90,7 +94,8 @@ SubjectRecords simulate_subject(const StudyDesign& design, const SimulatedObserv
     const bool lapse = lots.unit() < observers.lapses;
     record.response = design.task == StudyTask::path
                           ? answer_path(design, planned.item, lapse ? 0.5 : observers.correct + effect.share, lots)
-                          : answer_rating(design, observers.rating + effect.share, observers.rating_noise, lots);
+                          : answer_rating(design, observers.rating + effect.share,
+                                          effect.rating_noise > 0 ? effect.rating_noise : observers.rating_noise, lots);
     move_head(conditions[static_cast<std::size_t>(planned.condition)], lots, record);
     records.trials.push_back(record);
   }

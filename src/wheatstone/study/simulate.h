@@ -9,11 +9,13 @@
 
 namespace wheatstone {
 
-/// What one level of a factor does to observers.
+/// What one level of a factor, or one condition, does to observers.
 struct SimulatedEffect {
   std::string factor, level;
-  double seconds = 0;  ///< added to response times
-  double share = 0;    ///< added to the probability of a right answer, or to ratings
+  double seconds = 0;          ///< added to response times
+  double share = 0;            ///< added to the probability of a right answer, or to ratings
+  double rating_noise = 0;     ///< of this condition's ratings; 0: that of all
+  std::string condition = {};  ///< by its name, in place of a factor's level
 };
 
 /// Observers who are none: their response times and answers are drawn by lot.
