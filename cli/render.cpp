@@ -171,7 +171,7 @@ Report report_of(const RenderedParticles& result, const std::string& written, co
 /// What cannot be written or makes no sense is said before the long work.
 void check_output(const RenderArguments& arguments, const RenderParticlesOptions& options) {
   const ViewsOutput output = output_of(arguments);
-  if (arguments.annotate) check_annotation_font();
+  if (arguments.annotate) check_annotation(arguments.annotation, options.depth.viewing);
   check_views_output(output);
   check_not_an_input(arguments.save_slices, output.inputs);
   check_not_an_input(arguments.values, output.inputs);
@@ -209,7 +209,8 @@ Report run_render(const RenderArguments& given, const Session& session) {
   session.ranks.meet();
   if (!session.ranks.first()) return {};
   if (arguments.annotate)
-    for (std::string& note : annotate(result, result.rendered.views)) result.warnings.push_back(std::move(note));
+    for (std::string& note : annotate(result, result.rendered.views, arguments.annotation))
+      result.warnings.push_back(std::move(note));
   return report_of(result, write_output(arguments, result, session), session);
 }
 

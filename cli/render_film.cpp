@@ -93,11 +93,11 @@ FrameSource frames_of_scene(const RenderArguments& arguments, const RenderPartic
 }
 
 /// The frames with what --annotate draws into their views.
-FrameSource annotated(FrameSource source) {
-  check_annotation_font();
-  return [source = std::move(source)](int frame, const Progress& progress) {
+FrameSource annotated(FrameSource source, Annotation annotation) {
+  annotation.shown_as = ShownAs::film;
+  return [source = std::move(source), annotation](int frame, const Progress& progress) {
     RenderedParticles rendered = source(frame, progress);
-    for (std::string& note : annotate(rendered, rendered.rendered.views, ShownAs::film))
+    for (std::string& note : annotate(rendered, rendered.rendered.views, annotation))
       rendered.warnings.push_back(std::move(note));
     return rendered;
   };
@@ -158,9 +158,10 @@ Report run_render_film(const RenderArguments& given, const Session& session) {
   film.whole_frames =
       reads_slices(arguments) || reads_model(arguments) || arguments.film.distribute == Distribution::frames;
   if (!film.whole_frames) options.rendering.ranks = session.ranks;
+  if (arguments.annotate) check_annotation(arguments.annotation, options.depth.viewing);
   FrameSource source = reads_slices(arguments) ? frames_of_slices(arguments, options, film.frames)
                                                : frames_of_scene(arguments, options, film.frames, session.progress);
-  if (arguments.annotate) source = annotated(std::move(source));
+  if (arguments.annotate) source = annotated(std::move(source), arguments.annotation);
   if (!arguments.film.frame_range.empty())
     film.only = parse_frame_range(arguments.film.frame_range, film.frames, "--frame-range");
   tell_what_film_keeps(arguments.output);

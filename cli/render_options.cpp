@@ -29,6 +29,7 @@ constexpr std::array<Choice<Kernel>, 2> kernels{
     {{"gaussian", Kernel::gaussian}, {"cubic-spline", Kernel::cubic_spline}}};
 constexpr std::array<Choice<Stretch>, 3> stretches{
     {{"asinh", Stretch::asinh}, {"log", Stretch::log}, {"linear", Stretch::linear}}};
+constexpr NumberRange annotation_range_mm{-1e4, 1e5};
 constexpr std::array<Choice<bool>, 2> projections{{{"perspective", false}, {"orthographic", true}}};
 constexpr std::array<Choice<SizeRule>, 5> size_rules{{{"auto", SizeRule::automatic},
                                                       {"density", SizeRule::density},
@@ -379,6 +380,9 @@ Rows method_rows(RenderArguments& a) {
       {row("--annotate", flag(a.annotate),
            "Draw a scale bar, the colours with their numbers and units, and the redshift into each view",
            {beside_particles(a), when([&a] { return !a.interleave.empty(); }, "with --interleave; it works on views")}),
+       row("--title", text(a.annotation.title), "Title at the top of each view", {}, "--annotate"),
+       row("--annotation-depth", length(a.annotation.behind_mm, annotation_range_mm),
+           "Depth of what --annotate draws: mm behind the screen, in front of it where negative", {}, "--annotate"),
        row("--method", choice(rendering.method, methods), "Rendering method; --verbose tells which was used",
            {slices, when([&a] { return makes_slices(a) && is_without_planes(a) && !reads_model(a); },
                          "with --save-slices or --interleave; these render depth planes")}),

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "options.h"
+#include "wheatstone/app/annotate.h"
 #include "wheatstone/app/render_particles.h"
 #include "wheatstone/display/quilt.h"
 #include "wheatstone/stereo/stereo_layout.h"
@@ -40,6 +41,7 @@ struct RenderArguments {
   std::optional<std::array<double, 2>> focus;  ///< shares of a view's width and height
   float focus_radius = 0.25f, focus_gain = 1.5f;
   bool annotate = false;
+  Annotation annotation;
   bool points = false;  ///< of a model, its vertices are drawn as particles
   std::string values, interleave, save_slices;
   std::optional<QuiltLayout> quilt;

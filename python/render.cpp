@@ -169,7 +169,7 @@ py::tuple views_and_facts(RenderedParticles made) {
 
 void annotate_as_asked(const cli::RenderArguments& arguments, RenderedParticles& made) {
   if (!arguments.annotate) return;
-  std::vector<std::string> left_out = annotate(made, made.rendered.views);
+  std::vector<std::string> left_out = annotate(made, made.rendered.views, arguments.annotation);
   std::ranges::move(left_out, std::back_inserter(made.warnings));
 }
 

@@ -205,7 +205,8 @@ class FromTheCommandLine(unittest.TestCase):
              ["--stretch", "log", "--look-at", "100,200,300", "--projection", "orthographic", "--linear-colours"]),
             ({"depth_mapping": [(0, -50), (0.3, 0), (1, 60)], "smooth_depth": True, "method": "layered", "near": None},
              ["--depth-mapping", "0:-50,0.3:0,1:60", "--smooth-depth", "--method", "layered"]),
-            ({"annotate": True, "size": (320, 180), "opaque": False}, ["--annotate", "--size", "320x180"]),
+            ({"annotate": True, "title": "Gas & <dust>", "annotation_depth": 20, "size": (320, 180), "opaque": False},
+             ["--annotate", "--title", "Gas & <dust>", "--annotation-depth", "20", "--size", "320x180"]),
             ({"exposure": 0.2}, ["--look", "thesis", "--exposure", "0.2"]),
         ]:
             with self.subTest(str(options)):
@@ -268,6 +269,7 @@ class FromTheCommandLine(unittest.TestCase):
             ({"strech": "log"}, TypeError, "'strech'; did you mean 'stretch'"),
             ({"quilt": "3x2"}, TypeError, "'quilt'"),
             ({"stretch": "cubic"}, ValueError, "stretch: is 'cubic', expected asinh|log|linear"),
+            ({"title": "Gas"}, ValueError, "^title: has no effect without annotate"),
             ({"focus_gain": 2}, ValueError, "^focus_gain: has no effect without focus"),
             ({"opacity": 0.5}, ValueError, "^opacity: has no effect with look mass"),
             ({"type": "gas"}, ValueError, "these particles are arrays"),

@@ -9,6 +9,7 @@
 #include "wheatstone/app/colour_bar_ticks.h"
 #include "wheatstone/display/lettering.h"
 #include "wheatstone/display/typeset.h"
+#include "wheatstone/error.h"
 #include "wheatstone/multiview/colour_bar.h"
 
 namespace wheatstone {
@@ -19,13 +20,23 @@ constexpr Rgb8 shade{0, 0, 0};
 
 /// Sizes that follow from a view's height, in pixels.
 struct Measures {
-  Measures(int height, ShownAs shown_as)
+  Measures(int height, ShownAs shown_as, int moved)
       : letters(std::max(height / (shown_as == ShownAs::film ? 24 : 36), shown_as == ShownAs::film ? 13 : 11)),
         margin(std::max(height / 30, 4)),
+        side(margin + moved),
         bar(std::max(letters * 2 / 3, 3)),
         line(std::max(letters / 16, 1)) {}
-  int letters, margin, bar, line;
+  int letters, margin;
+  int side;  ///< margin to the left and right, from which the views move what is drawn
+  int bar, line;
 };
+
+/// How far to the right what stands at the depth lies in a view.
+int moved_px(const RenderedParticles& rendered, float behind_mm, std::size_t view) {
+  if (behind_mm == 0) return 0;
+  const double parallax = screen_parallax_mm(rendered.viewing, behind_mm) / rendered.viewing.screen_width_mm;
+  return static_cast<int>(std::lround(rendered.rig.positions[view].eye_separations() * parallax * rendered.rig.width));
+}
 
 struct Placed {
   int left, top;
@@ -65,10 +76,10 @@ bool add_scale(const RenderedParticles& rendered, const Image<Rgb8>& view, const
   const int width = static_cast<int>(std::lround(length * px_a_unit));
   const int thick = 2 * measures.line + 1;
   const int top = view.height() - measures.margin - thick;
-  if (std::max(label.width(), width) > view.width() / 2 - measures.margin || top < view.height() / 2) return false;
+  if (std::max(label.width(), width) > view.width() / 2 - measures.side || top < view.height() / 2) return false;
   const int above = top - label.height();
-  drawing.inked.push_back({measures.margin, above, std::move(label)});
-  drawing.inked.push_back({measures.margin, top, filled(std::max(width, 1), thick)});
+  drawing.inked.push_back({measures.side, above, std::move(label)});
+  drawing.inked.push_back({measures.side, top, filled(std::max(width, 1), thick)});
   return true;
 }
 
@@ -97,17 +108,17 @@ bool add_colours(const RenderedParticles& rendered, const Image<Rgb8>& view, con
   std::vector<std::string> texts;
   for (const Tick& tick : bar.ticks) texts.push_back(tick.label);
   std::vector<Image<std::uint8_t>> labels = set_labels(texts, measures.letters);
-  const int room = view.width() * 7 / 10 - measures.margin;
+  const int room = view.width() * 7 / 10 - measures.side;
   std::vector<Image<std::uint8_t>> titles =
       set_labels(title_of(rendered.units, bar.exponent, measures.letters, room), measures.letters);
   const int reaches_out = labels.back().width() / 2;
-  const int right = view.width() - measures.margin - std::max(reaches_out - measures.margin / 2, 0);
+  const int right = view.width() - measures.side - std::max(reaches_out - measures.margin / 2, 0);
   const int left = right - across, tick = 3 * measures.line;
   const int bottom = view.height() - measures.margin - labels.front().height() - tick;
   const int title_top =
       bottom - measures.bar - 2 * measures.line - static_cast<int>(titles.size()) * titles[0].height();
   const bool wide = std::ranges::any_of(titles, [&](const auto& title) { return title.width() > room; });
-  if (wide || bar.ticks.size() < 2 || title_top < view.height() / 2) return false;
+  if (wide || left < measures.side || bar.ticks.size() < 2 || title_top < view.height() / 2) return false;
   drawing.colours = colour_bar(rendered.rendered.tone, across, measures.bar);
   drawing.left = left;
   drawing.top = bottom - measures.bar;
@@ -119,24 +130,45 @@ bool add_colours(const RenderedParticles& rendered, const Image<Rgb8>& view, con
   int y = title_top;
   for (Image<std::uint8_t>& title : titles) {
     const int below = y + title.height();
-    const int at = std::max(right - std::max(title.width(), across), 0);
+    const int at = std::max(right - std::max(title.width(), across), measures.side);
     drawing.inked.push_back({at, y, std::move(title)});
     y = below;
   }
   for (std::size_t i = 0; i < labels.size(); ++i) {
     const int at = left + static_cast<int>(std::lround(bar.ticks[i].place * static_cast<float>(across - 1)));
-    const int beside = std::min(at - labels[i].width() / 2, view.width() - labels[i].width());
+    const int beside =
+        std::min(at - labels[i].width() / 2, view.width() - labels[i].width() - measures.side + measures.margin);
     drawing.inked.push_back({at - line / 2, bottom + line, filled(line, tick)});
     drawing.inked.push_back({beside, bottom + line + tick, std::move(labels[i])});
   }
   return true;
 }
 
-void draw(const Drawing& drawing, const std::vector<Placed>& rims, Image<Rgb8>& view) {
-  for (const Placed& rim : rims) lay_cover(rim.cover, rim.left, rim.top, shade, view);
+/// The redshift at the upper left, and the title in the middle, below the redshift where they would meet; false where
+/// the title does not fit.
+bool add_words(const RenderedParticles& rendered, const std::string& title, const Image<Rgb8>& view,
+               const Measures& measures, Drawing& drawing) {
+  int top = measures.margin, taken = 0;
+  if (rendered.redshift) {
+    const std::string text = fmt::format("z = {:.2f}", *rendered.redshift);
+    Image<std::uint8_t> label = std::move(set_labels(std::span(&text, 1), measures.letters).front());
+    taken = measures.side + label.width() + measures.letters;
+    drawing.inked.push_back({measures.side, top, std::move(label)});
+  }
+  if (title.empty()) return true;
+  Image<std::uint8_t> label = std::move(set_labels(std::span(&title, 1), measures.letters * 4 / 3).front());
+  const int left = (view.width() - label.width()) / 2;
+  if (left < taken) top += measures.letters * 4 / 3;
+  if (left < measures.side || top + label.height() > view.height() / 2) return false;
+  drawing.inked.push_back({left, top, std::move(label)});
+  return true;
+}
+
+void draw(const Drawing& drawing, const std::vector<Placed>& rims, int moved, Image<Rgb8>& view) {
+  for (const Placed& rim : rims) lay_cover(rim.cover, rim.left + moved, rim.top, shade, view);
   for (int y = 0; y < drawing.colours.height(); ++y)
-    std::ranges::copy(drawing.colours.row(y), view.row(drawing.top + y).begin() + drawing.left);
-  for (const Placed& placed : drawing.inked) lay_cover(placed.cover, placed.left, placed.top, ink, view);
+    std::ranges::copy(drawing.colours.row(y), view.row(drawing.top + y).begin() + drawing.left + moved);
+  for (const Placed& placed : drawing.inked) lay_cover(placed.cover, placed.left + moved, placed.top, ink, view);
 }
 
 }  // namespace
@@ -148,13 +180,25 @@ double round_length(double most) {
   return power;
 }
 
-void check_annotation_font() { font_for("column density [10⁻¹ M☉ kpc⁻²] 2×10"); }
+void check_annotation(const Annotation& annotation, const ViewingGeometry& viewing) {
+  if (!(annotation.behind_mm > -viewing.viewing_distance_mm))
+    throw Error(ErrorKind::wrong_usage,
+                fmt::format("annotation depth: is {} mm, expected more than {} mm, where the viewer is",
+                            annotation.behind_mm, -viewing.viewing_distance_mm));
+  font_for("column density [10⁻¹ M☉ kpc⁻²] 2×10");
+  if (!annotation.title.empty()) font_for(annotation.title);
+}
 
-std::vector<std::string> annotate(const RenderedParticles& rendered, std::span<Image<Rgb8>> views, ShownAs shown_as) {
+std::vector<std::string> annotate(const RenderedParticles& rendered, std::span<Image<Rgb8>> views,
+                                  const Annotation& annotation) {
   if (views.empty()) return {};
+  check_annotation(annotation, rendered.viewing);
   std::vector<std::string> notes;
   const Image<Rgb8>& view = views.front();
-  const Measures measures(view.height(), shown_as);
+  int moved = 0;
+  for (std::size_t i = 0; i < views.size(); ++i)
+    moved = std::max(moved, std::abs(moved_px(rendered, annotation.behind_mm, i)));
+  const Measures measures(view.height(), annotation.shown_as, moved);
   Drawing drawing;
   const auto too_small = [&](const char* what) {
     notes.push_back(
@@ -166,14 +210,11 @@ std::vector<std::string> annotate(const RenderedParticles& rendered, std::span<I
     notes.emplace_back("no colour bar: colours do not stand for numbers, as they do with --look mass and --quantity");
   else if (!add_colours(rendered, view, measures, drawing))
     too_small("colour bar");
-  if (rendered.redshift) {
-    const std::string text = fmt::format("z = {:.2f}", *rendered.redshift);
-    drawing.inked.push_back(
-        {measures.margin, measures.margin, std::move(set_labels(std::span(&text, 1), measures.letters).front())});
-  }
+  if (!add_words(rendered, annotation.title, view, measures, drawing)) too_small("title");
   std::vector<Placed> rims;
   for (const Placed& placed : drawing.inked) rims.push_back(rim_of(placed, std::max(measures.letters / 10, 1)));
-  for (Image<Rgb8>& one : views) draw(drawing, rims, one);
+  for (std::size_t i = 0; i < views.size(); ++i)
+    draw(drawing, rims, moved_px(rendered, annotation.behind_mm, i), views[i]);
   return notes;
 }
 

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "throws_error.h"
 #include "wheatstone/app/colour_bar_ticks.h"
 #include "wheatstone/display/typeset.h"
 #include "wheatstone/multiview/colour_bar.h"
@@ -134,7 +135,7 @@ int rows_of(const Image<Rgb8>& view) {
 TEST(Annotate, IsLargerInFilms) {
   std::vector<Image<Rgb8>> still{Image<Rgb8>(1280, 720)}, film = still;
   annotate(rendered(Stretch::log, false), still);
-  annotate(rendered(Stretch::log, false), film, ShownAs::film);
+  annotate(rendered(Stretch::log, false), film, {.shown_as = ShownAs::film});
   EXPECT_GT(rows_of(film[0]), 1.3 * rows_of(still[0]));
 }
 
@@ -154,6 +155,45 @@ TEST(Annotate, SaysWhatItLeavesOut) {
   thesis.rendered.tone.look = Look::thesis;
   views = {Image<Rgb8>(640, 360)};
   EXPECT_THAT(annotate(thesis, views), ElementsAre(testing::HasSubstr("no colour bar: colours do not stand")));
+}
+
+/// Columns of the upper or lower part of a view in which something was drawn: the first and the last.
+std::pair<int, int> drawn_columns(const Image<Rgb8>& view, int top, int bottom, int left, int right) {
+  int first = right, last = left;
+  for (int x = left; x < right; ++x)
+    for (int y = top; y < bottom; ++y)
+      if (view(x, y) == Rgb8{230, 230, 230}) {
+        first = std::min(first, x);
+        last = std::max(last, x);
+      }
+  return {first, last};
+}
+
+TEST(Annotate, StandsAtTheDepthThatIsAskedForWithItsTitle) {
+  constexpr int width = 640, height = 360;
+  RenderedParticles result = rendered(Stretch::log, false);
+  result.rig = evenly_spaced(width, height, 2, 1);
+  for (const float behind_mm : {-80.f, 0.f, 60.f}) {
+    std::vector<Image<Rgb8>> views(2, Image<Rgb8>(width, height));
+    EXPECT_THAT(annotate(result, views, {.title = "Gas & <dust>", .behind_mm = behind_mm}), IsEmpty());
+    const double parallax = screen_parallax_mm(result.viewing, behind_mm) / result.viewing.screen_width_mm * width;
+    EXPECT_EQ(std::abs(parallax) > 5, behind_mm != 0);
+    for (const auto& [top, bottom, left, right] :
+         {std::array{0, 60, 200, 440}, {height - 60, height, 0, 200}, {height - 60, height, 240, width}}) {
+      const auto in_left = drawn_columns(views[0], top, bottom, left, right);
+      const auto in_right = drawn_columns(views[1], top, bottom, left, right);
+      ASSERT_LT(in_left.first, in_left.second);
+      EXPECT_NEAR(in_right.first - in_left.first, parallax, 1);
+      EXPECT_NEAR(in_right.second - in_left.second, parallax, 1);
+    }
+    const auto title = drawn_columns(views[0], 0, 60, 200, 440);
+    EXPECT_NEAR(title.first + title.second + parallax, width, 6) << "in the middle";
+  }
+  std::vector<Image<Rgb8>> views(2, Image<Rgb8>(width, height));
+  expect_error(ErrorKind::wrong_usage, "annotation depth: is -2000 mm",
+               [&] { annotate(result, views, {.behind_mm = -2000}); });
+  EXPECT_THAT(annotate(result, views, {.title = std::string(200, 'm')}),
+              ElementsAre(testing::HasSubstr("no title: views of 640x360 pixels are too small")));
 }
 
 }  // namespace wheatstone::annotate_test

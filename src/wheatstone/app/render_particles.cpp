@@ -116,6 +116,7 @@ RenderedParticles render_known(const KnownParticles& particles, const RenderPart
   RenderOptions rendering = options.rendering;
   show_quantity(options, statistics, staged.scene, rendering.tone);
   result.rig = staged.rig;
+  result.viewing = staged.viewing;
   result.focus = options.rendering.focus;
   bool first_pass = true;
   const Chunks counted = [&](const std::function<void(const Cloud&)>& visit) {

@@ -95,6 +95,7 @@ struct RenderedParticles {
   SliceStack stack;  ///< empty unless slices were made
   Rig rig;
   Scene scene;
+  ViewingGeometry viewing;  ///< of the views, of particles only
   std::optional<Focus> focus;
   std::vector<ViewValues> values;  ///< of the views, where they were asked for
   ShownUnits units;
