@@ -44,7 +44,7 @@ std::string axis_svg(const Axis& axis, double width, const std::string& title) {
     svg += fmt::format(R"(<text x="{:.1f}" y="{:.1f}" text-anchor="end">{:g}</text>)", plot_left - 6, y + 4,
                        std::round(value / axis.step) * axis.step);
   }
-  return svg + fmt::format(R"(<text transform="translate(14 {:.1f}) rotate(-90)" text-anchor="middle">{}</text>)",
+  return svg + fmt::format(R"svg(<text transform="translate(14 {:.1f}) rotate(-90)" text-anchor="middle">{}</text>)svg",
                            plot_top + plot_height / 2, escaped(title));
 }
 
@@ -54,8 +54,8 @@ std::string column_label(double x, const std::string& name) {
   double line_x = x - 2;
   for (std::size_t begin = 0; begin <= name.size(); line_x += 15) {
     const std::size_t end = std::min(name.find(',', begin), name.size());
-    svg += fmt::format(R"(<text transform="translate({:.1f} {:.1f}) rotate(-50)" text-anchor="end">{}</text>)", line_x,
-                       plot_top + plot_height + 16, escaped(name.substr(begin, end - begin)));
+    svg += fmt::format(R"svg(<text transform="translate({:.1f} {:.1f}) rotate(-50)" text-anchor="end">{}</text>)svg",
+                       line_x, plot_top + plot_height + 16, escaped(name.substr(begin, end - begin)));
     begin = end + 1;
   }
   return svg;
