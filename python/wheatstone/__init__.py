@@ -15,6 +15,6 @@ from ._wheatstone import __version__
 
 __all__ = [
     "Column", "Film", "Frame", "Geometry", "Job", "Measures", "PaintedFrame", "Painting", "Particles", "Photograph",
-    "Picture", "Rectified", "Series", "Slices", "Style", "Views", "column_density", "load", "match", "measure", "pack", "paint", "rectify",
-    "render", "rotoscope", "save", "share", "still",
+    "Picture", "Rectified", "Series", "Slices", "Style", "Views", "column_density", "load", "match", "measure",
+    "pack", "paint", "rectify", "render", "rotoscope", "save", "share", "still",
 ]
