@@ -14,6 +14,7 @@
 #include "device_option.h"
 #include "display_argument.h"
 #include "film_argument.h"
+#include "film_plan_run.h"
 #include "match_options.h"
 #include "stereo_arguments.h"
 #include "style_options.h"
@@ -46,6 +47,7 @@ struct RotoscopeArguments {
   DisplayArguments display;
   std::string flow_values = "255";
   DepthArguments depth;
+  PlanArguments plan;
   RotoscopeFilmOptions options;
   MatchArguments matching;
   StyleArguments style;
@@ -94,12 +96,20 @@ FilmWriterOptions writing_options(const RotoscopeArguments& arguments, const Fil
   return writing;
 }
 
+double megabytes_in(const fs::path& folder) {
+  std::uintmax_t bytes = 0;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder))
+    if (entry.is_regular_file()) bytes += entry.file_size();
+  return static_cast<double>(bytes) / 1e6;
+}
+
 Report report_of(const RotoscopeArguments& arguments, const RotoscopedFilm& film, const Session& session) {
   const RotoscopeTotals& totals = film.totals;
   const RotoscopeOptions& options = arguments.options.frames;
   const auto painted = static_cast<double>(std::max<std::int64_t>(film.frames - film.resumed_frames, 1));
-  std::string frames = fmt::format("painted          {} frames in {} scene{}", film.frames, totals.scenes,
-                                   totals.scenes == 1 ? "" : "s");
+  std::string frames =
+      fmt::format("{:16} {} frames in {} scene{}", arguments.options.plan.empty() ? "painted" : "planned", film.frames,
+                  totals.scenes, totals.scenes == 1 ? "" : "s");
   if (film.resumed_frames > 0) frames += fmt::format(", the first {} by an earlier run", film.resumed_frames);
   Report report{{{"output", arguments.output},
                  {"frames", film.frames, frames},
@@ -123,9 +133,10 @@ Report report_of(const RotoscopeArguments& arguments, const RotoscopedFilm& film
          fmt::format("carried          {:.1f} % of the strokes from frame to frame, {} popped", 100 * survival,
                      totals.popped_strokes)});
   }
-  add({"worst_bare_share", totals.worst_bare_share,
-       fmt::format("unpainted        at most {:.3f} % of {}", 100 * totals.worst_bare_share,
-                   options.display ? "a view" : "an eye")});
+  if (arguments.options.plan.empty())
+    add({"worst_bare_share", totals.worst_bare_share,
+         fmt::format("unpainted        at most {:.3f} % of {}", 100 * totals.worst_bare_share,
+                     options.display ? "a view" : "an eye")});
   if (options.display) {
     add({"views", options.display->views.views});
     add({"view_width", options.display->views.width});
@@ -144,6 +155,13 @@ Report report_of(const RotoscopeArguments& arguments, const RotoscopedFilm& film
   add({"notes", film.notes, lines("note             ", film.notes)});
   const std::string right = arguments.options.right_film.string();
   if (!right.empty()) add({"right_output", right});
+  if (const fs::path& plan = arguments.options.plan; !plan.empty()) {
+    const double mb_a_frame = megabytes_in(plan) / painted;
+    add({"plan", plan.string()});
+    add({"plan_megabytes_a_frame", mb_a_frame, fmt::format("plan             {:.2f} MB a frame", mb_a_frame)});
+    add(only_text(fmt::format("written to       {}; draw it with --draw, then --join it", plan.string())));
+    return report;
+  }
   add(only_text(fmt::format("written to       {}{}{}", arguments.output, right.empty() ? "" : " and ", right)));
   return report;
 }
@@ -242,6 +260,9 @@ void refuse_for_one_eye(const RotoscopeArguments& arguments, const FilmFiles& fi
 }
 
 Report run_rotoscope(const RotoscopeArguments& given, const Session& session) {
+  if (!session.ranks.alone() && (is_of_plan(given.plan) || !given.options.plan.empty()))
+    throw Error(ErrorKind::wrong_usage, "--plan, --draw and --join work in one process, not under mpirun");
+  if (is_of_plan(given.plan)) return run_plan(given.plan, given.film, given.output, given.given, session);
   RotoscopeArguments arguments = given;
   RotoscopeOptions& frames = arguments.options.frames;
   frames.style = style_from(arguments.style, session.seed);
@@ -260,11 +281,12 @@ Report run_rotoscope(const RotoscopeArguments& given, const Session& session) {
     arguments.output = film_of_eye(arguments.output, left_eye).string();
   }
   arguments.options.anaglyph = arguments.output_layout.anaglyph;
-  tell_what_film_keeps(arguments.output, arguments.options.marks);
+  if (arguments.options.plan.empty()) tell_what_film_keeps(arguments.output, arguments.options.marks);
   RotoscopeFilmOptions options = arguments.options;
   take_truth(arguments, session, options);
   const FilmFiles film = films_from(arguments);
   options.reading = reading_options(arguments, film, session);
+  options.version = WHEATSTONE_VERSION;
   options.made_by = fmt::format("wheatstone {}", WHEATSTONE_VERSION);
   take_device(session, options);
   StereoFilmReader source = open_film(film, options.reading);
@@ -309,7 +331,8 @@ Rows film_rows(RotoscopeArguments& a) {
       row("--rate", parsed(a.rate, parse_frame_rate),
           "Frames per second of numbered pictures, for example 25 or 24000/1001; 24 by default"),
       row("--frame-step", number(a.frame_step, {1, 1'000'000}), "Paint every Nth frame only")};
-  const Rows marks{row("--save-marks", text(a.options.marks), "Also write the marks of each frame: marks_%04d.wst")};
+  const Rows marks{row("--save-marks", text(a.options.marks), "Also write the marks of each frame: marks_%04d.wst",
+                       {when([&a] { return !a.options.plan.empty(); }, "with --plan, which has the marks")})};
   const Rows damaged{row("--keep-going", flag(a.options.keep_going),
                          "Paint the frames of a damaged film that can be decoded, without an error at the end")};
   return under("Film", join({source, film_coding_rows(a.options.writing), side_stream_rows(a.options.writing), marks,
@@ -383,9 +406,15 @@ Rows rotoscope_rows(RotoscopeArguments& a) {
   const Reason known = [&a] {
     return known_depth(a).empty() ? "" : known_depth(a) + "; nothing is matched where the disparity is given";
   };
+  const Row plan_row = row("--plan", of_type("DIR", text(a.options.plan)),
+                           "Only plan the film, and write the marks of its frames to this folder, to be drawn in parts "
+                           "by --draw",
+                           {when([&a] { return writes_marks(a); }, "on marks (.wst); they are all that is written"),
+                            when([&a] { return a.options.resume; }, "with --resume; a plan is made in one run")},
+                           {}, {"--draw", "--join"});
   const Rows basic{row("FILM", required(text(a.film)),
                        "Film with one or two eyes; numbered pictures (frame_%04d.png); a folder of them; or one film "
-                       "per eye: LEFT,RIGHT"),
+                       "per eye: LEFT,RIGHT; with --draw and --join a plan"),
                    row("RIGHT", text(a.right), "Film of the right eye, if FILM is that of the left eye"),
                    row("-o,--output", output_name(a.output),
                        "Painted film (.mp4, .mov, .mkv, .webm), numbered pictures (frame_%04d.png, .exr), or marks "
@@ -396,14 +425,16 @@ Rows rotoscope_rows(RotoscopeArguments& a) {
                ? "on the strokes of a film; they are planned in the view between the eyes"
                : "";
   });
-  return join({basic,
-               film_rows(a),
-               time_rows(a),
-               film_depth_rows(a.depth),
-               film_display_rows(a.display, {marks}),
-               {device_row(a.options.frames.device, "What draws the planned frames", {undrawn})},
-               style,
-               under({}, match_rows(a.matching), {known})});
+  const Rows all = join({basic,
+                         film_rows(a),
+                         plan_rows(a.plan, plan_row),
+                         time_rows(a),
+                         film_depth_rows(a.depth),
+                         film_display_rows(a.display, {marks}),
+                         {device_row(a.options.frames.device, "What draws the planned frames", {undrawn})},
+                         style,
+                         under({}, match_rows(a.matching), {known})});
+  return refused_on_plans(all, a.plan);
 }
 
 }  // namespace
@@ -420,7 +451,10 @@ Examples:
   wheatstone rotoscope film.mp4 --from 0:10 --to 0:12 --style expressionist -o try.mp4
   wheatstone rotoscope film.mp4 --display looking-glass-portrait -o painted
   wheatstone rotoscope walk.mp4 --depth depth.mp4 -o painted.mp4
-  wheatstone synth film -o film && wheatstone rotoscope film -o painted.mp4)");
+  wheatstone synth film -o film && wheatstone rotoscope film -o painted.mp4
+  wheatstone rotoscope film.mp4 --plan film.plan -o painted.mp4
+  wheatstone rotoscope --draw film.plan --frame-range 1/2 && wheatstone rotoscope --draw film.plan --frame-range 2/2
+  wheatstone rotoscope --join film.plan)");
 }
 
 }  // namespace wheatstone::cli

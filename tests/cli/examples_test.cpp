@@ -35,7 +35,8 @@ constexpr bool has_window = WHEATSTONE_HAS_WINDOW;
 
 /// Options in the documentation that are not the program's, and whose they are.
 const std::map<std::string, std::string> options_of_others{
-    {"--install", "cmake"}, {"--gtest_filter", "Google Test"}, {"--map-by", "mpirun"}};
+    {"--install", "cmake"},        {"--gtest_filter", "Google Test"}, {"--map-by", "mpirun"},     {"--array", "sbatch"},
+    {"--cpus-per-task", "sbatch"}, {"--parsable", "sbatch"},          {"--dependency", "sbatch"}, {"--wrap", "sbatch"}};
 
 /// Makes an example's work small. A command that begins with these words, and has a word that ends with `if_any` where
 /// that is given, gets this option; one that it has already gets the value.

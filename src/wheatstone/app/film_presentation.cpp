@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "wheatstone/app/eyes_in_film.h"
 #include "wheatstone/app/slow_ends_internal.h"
 #include "wheatstone/error.h"
 
@@ -16,6 +17,13 @@ DisplayComposition composition_of(const FilmDisplay& display) {
   if (display.quilt) return *display.quilt;
   if (display.screen) return *display.screen;
   throw Error(ErrorKind::wrong_usage, "the display takes neither quilts nor lenticular pictures");
+}
+
+/// Those of one view or two, or of a composition.
+FramePictures frame_pictures(Presented shown) {
+  if (!shown.composed.empty()) return std::move(shown.composed);
+  if (shown.views.size() == 1) return std::move(shown.views.front());
+  return StereoPair{std::move(shown.views.front()), std::move(shown.views.back())};
 }
 
 }  // namespace
@@ -40,13 +48,21 @@ Presentation for_display(PictureSize frame, const SceneDepth& scene, const FilmD
   return presentation;
 }
 
-FramePictures frame_pictures(Presented shown) {
-  if (!shown.composed.empty()) return std::move(shown.composed);
-  if (shown.views.size() == 1) return std::move(shown.views.front());
-  return StereoPair{std::move(shown.views.front()), std::move(shown.views.back())};
+Image<Rgb8> picture_in_film(FramePictures pictures, StereoLayout layout, std::string_view anaglyph) {
+  const auto* const eyes = std::get_if<StereoPair>(&pictures);
+  return eyes != nullptr ? put_into_frame(*eyes, layout, anaglyph) : std::get<Image<Rgb8>>(std::move(pictures));
+}
+
+DrawnFrame draw_film_frame(const Painting& painting, const FrameShowing& showing) {
+  Presentation presentation = showing.presentation;
+  presentation.backgrounds.assign(showing.backgrounds.begin(), showing.backgrounds.end());
+  Presented shown = present(painting, presentation);
+  const double worst_bare_share = shown.worst_bare_share;
+  return {frame_pictures(std::move(shown)), worst_bare_share};
 }
 
 std::string moved_eyes_note(std::int64_t frames, double least_separation) {
+  if (frames == 0) return {};
   return fmt::format("{} in {} frames, nearest together at {:.2f} of their distance", beginning_of_note, frames,
                      least_separation);
 }

@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 #include <variant>
+#include <vector>
 
 #include "wheatstone/app/display_views.h"
 #include "wheatstone/display/lenticular.h"
@@ -42,11 +43,27 @@ Presentation for_display(PictureSize frame, const SceneDepth& scene, const FilmD
 /// a display.
 using FramePictures = std::variant<StereoPair, Image<Rgb8>>;
 
-/// Those of one view or two, or of a composition.
-FramePictures frame_pictures(Presented shown);
+/// The picture of a frame as a film has it: two eyes put together, as put_into_frame.
+Image<Rgb8> picture_in_film(FramePictures pictures, StereoLayout layout, std::string_view anaglyph);
+
+/// How a frame is shown, with the backgrounds that its presentation borrows.
+struct FrameShowing {
+  Presentation presentation;             ///< without backgrounds
+  std::vector<Image<Rgb8>> backgrounds;  ///< of each view, or none
+};
+
+/// A frame that was drawn.
+struct DrawnFrame {
+  FramePictures pictures;
+  double worst_bare_share = 0;  ///< of the pixels of an eye or a view, 0..1
+};
+
+/// Draws a frame, whose painting has all its marks. Frames are drawn in any order, with the same bytes. Throws as
+/// `present`.
+DrawnFrame draw_film_frame(const Painting& painting, const FrameShowing& showing);
 
 /// The sentence that a film's comment has if the eyes were moved together in this many frames, to no less than this
-/// separation.
+/// separation; empty where there was none.
 std::string moved_eyes_note(std::int64_t frames, double least_separation);
 
 /// Whether a film's comment has that sentence.

@@ -16,6 +16,7 @@
 #include "wheatstone/measures/film_measures.h"
 #include "wheatstone/motion/central_flow.h"
 #include "wheatstone/motion/expected_disparity.h"
+#include "wheatstone/painting/plan_for_eyes.h"
 #include "wheatstone/painting/still_scene.h"
 #include "wheatstone/stereo/geometry_from_disparity.h"
 #include "wheatstone/stereo/view.h"
@@ -162,7 +163,7 @@ void begin_scene(RotoscopeState& state) {
 }
 
 /// The frame as its scene is rectified. Until a scene has shown whether its rows fit, later frames are measured too.
-FirstLook rectify_frame(const FrameTask& photographed, RotoscopeState& state, RotoscopedFrame& result) {
+FirstLook rectify_frame(const FrameTask& photographed, RotoscopeState& state, PlannedFilmFrame& result) {
   const StereoPair& eyes = photographed.eyes;
   FirstLook frame;
   result.scene_begins = tells_cut_of(photographed, state, frame.to_before);
@@ -244,56 +245,39 @@ void find_views(const FrameTask& task, bool scene_begins, RotoscopeState& state,
 }
 
 /// Shows the frame on the display, to other eyes than the film's own, or to these, over their pictures.
-Presentation presentation_of(const FrameTask& task, const TwoEyes& eyes, const SceneDepth& depth) {
+FrameShowing showing_of(const FrameTask& task, const TwoEyes& eyes, const SceneDepth& depth) {
   const RotoscopeOptions& options = task.options;
   const StereoPair& whole = task.whole;
   if (options.display)
-    return for_display({whole.left.width(), whole.left.height()}, depth, *options.display, options.device);
+    return {for_display({whole.left.width(), whole.left.height()}, depth, *options.display, options.device), {}};
   const bool one_eye = whole.right.empty();
-  Presentation presentation = one_eye ? Presentation{.views = {central_view}} : for_two_eyes();
-  if (are_moved(eyes)) {
-    presentation = for_two_eyes(eyes);
-  } else if (options.style.background == Background::photograph) {
-    presentation.backgrounds = {whole.left};
-    if (!one_eye) presentation.backgrounds.emplace_back(whole.right);
+  FrameShowing showing{one_eye ? Presentation{.views = {central_view}} : for_two_eyes(eyes), {}};
+  if (!are_moved(eyes) && options.style.background == Background::photograph) {
+    showing.backgrounds.push_back(whole.left);
+    if (!one_eye) showing.backgrounds.push_back(whole.right);
   }
-  presentation.device = options.device;
-  return presentation;
+  showing.presentation.device = options.device;
+  return showing;
 }
 
-/// Plans the frame, perhaps smaller than it is drawn, and presents it.
-void paint_presented(const FilmFrame& frame, const FrameTask& task, RotoscopeState& state, RotoscopedFrame& result) {
-  const Style& style = task.options.style;
-  {
-    const Stopwatch watch(result.painting_times.planning_s);
-    const bool is_smaller = task.reduction > 1;
-    PlannedFrame planned =
-        plan_frame(frame, is_smaller ? at_half_size(style) : style, task.options.carrying, state.memory, task.progress);
-    const PictureSize size{task.whole.left.width(), task.whole.left.height()};
-    result.painting =
-        is_smaller ? at_whole_size(std::move(planned.painting), size, style) : std::move(planned.painting);
-    result.counts = planned.counts;
-  }
-  report(task.progress, "drawing", 0);
-  const Stopwatch watch(result.painting_times.rasterising_s);
-  Presented shown = present(result.painting, presentation_of(task, result.eyes, state.depth));
-  result.worst_bare_share = shown.worst_bare_share;
-  result.pictures = frame_pictures(std::move(shown));
-}
-
-/// Plans the frame and draws it for the film's own eyes in one step, so that wrong paint is mended while it is drawn.
-void paint_for_own_eyes(const FilmFrame& frame, const FrameTask& task, RotoscopeState& state, RotoscopedFrame& result) {
+/// Plans the frame, perhaps smaller than it is drawn. Strokes that are drawn for the film's own eyes are repaired by
+/// what these see.
+PlannedFrame plan_marks(const FilmFrame& frame, const FrameTask& task, const TwoEyes& eyes, RotoscopeState& state) {
   const RotoscopeOptions& options = task.options;
-  PaintedFrame made = paint_frame(frame, options.style, options.carrying, state.memory, task.progress, options.device);
-  result.painting = std::move(made.painting);
-  result.counts = made.counts;
-  result.painting_times = made.times;
-  result.worst_bare_share = made.shown.worst_bare_share;
-  result.pictures = frame_pictures(std::move(made.shown));
+  const Style& style = options.style;
+  if (task.reduction > 1) {
+    PlannedFrame planned = plan_frame(frame, at_half_size(style), options.carrying, state.memory, task.progress);
+    planned.painting =
+        at_whole_size(std::move(planned.painting), {task.whole.left.width(), task.whole.left.height()}, style);
+    return planned;
+  }
+  if (options.display || are_moved(eyes))
+    return plan_frame(frame, style, options.carrying, state.memory, task.progress);
+  return plan_for_eyes(frame, style, options.carrying, state.memory, task.progress, options.device);
 }
 
 /// Compares the frame with the one before and adds it to the film's sums.
-void accumulate_statistics(const RotoscopeOptions& options, RotoscopeState& state, RotoscopedFrame& result) {
+void accumulate_statistics(const RotoscopeOptions& options, RotoscopeState& state, PlannedFilmFrame& result) {
   const std::span<const Layer> layers = layers_of(result.painting);
   const double largest_step =
       1.0 / std::max(std::min(options.carrying.fade_in_frames, options.carrying.fade_out_frames), 1);
@@ -304,7 +288,6 @@ void accumulate_statistics(const RotoscopeOptions& options, RotoscopeState& stat
   totals.survived_strokes += result.changes.survived;
   totals.popped_strokes += result.changes.popped;
   for (const Layer& layer : layers) totals.strokes += static_cast<std::int64_t>(count_strokes(layer));
-  totals.worst_bare_share = std::max(totals.worst_bare_share, result.worst_bare_share);
   totals.moved_frames += are_moved(result.eyes) ? 1 : 0;
   totals.least_separation = std::min(totals.least_separation, static_cast<double>(result.eyes.separation));
   state.layers_before.assign(layers.begin(), layers.end());
@@ -312,11 +295,11 @@ void accumulate_statistics(const RotoscopeOptions& options, RotoscopeState& stat
 
 }  // namespace
 
-RotoscopedFrame rotoscope_frame(const StereoPair& photographed, const RotoscopeOptions& options, RotoscopeState& state,
-                                const KnownFrame* known, const Progress& progress) {
+PlannedFilmFrame plan_film_frame(const StereoPair& photographed, const RotoscopeOptions& options, RotoscopeState& state,
+                                 const KnownFrame* known, const Progress& progress) {
   const bool has_depth = known != nullptr && known->depth;
   check_eyes(photographed, options, state, has_depth);
-  RotoscopedFrame result;
+  PlannedFilmFrame result;
   FirstLook first = rectify_frame({photographed, photographed, options, known, progress}, state, result);
   StereoPair eyes = std::move(first.eyes);
   KnownFrame made;
@@ -343,11 +326,13 @@ RotoscopedFrame rotoscope_frame(const StereoPair& photographed, const RotoscopeO
   const FilmFrame to_paint{frame.views, carries ? &state.flow_before : nullptr};
   if (options.depth_budget && !eyes.right.empty() && !options.display)
     result.eyes = comfortable_eyes({eyes.left.width(), eyes.left.height()}, state.depth.ends, *options.depth_budget);
-  if (options.display || are_moved(result.eyes) || is_smaller) {
-    paint_presented(to_paint, task, state, result);
-  } else {
-    paint_for_own_eyes(to_paint, task, state, result);
+  {
+    const Stopwatch watch(result.painting_times.planning_s);
+    PlannedFrame planned = plan_marks(to_paint, task, result.eyes, state);
+    result.painting = std::move(planned.painting);
+    result.counts = planned.counts;
   }
+  result.showing = showing_of(task, result.eyes, state.depth);
   accumulate_statistics(options, state, result);
 
   ++state.frames;
@@ -356,6 +341,18 @@ RotoscopedFrame rotoscope_frame(const StereoPair& photographed, const RotoscopeO
   state.left_disparity_before = std::move(frame.geometry.left_disparity);
   state.central_before = std::move(frame.centre.picture);
   state.central_disparity_before = std::move(frame.centre.disparity);
+  return result;
+}
+
+RotoscopedFrame rotoscope_frame(const StereoPair& photographed, const RotoscopeOptions& options, RotoscopeState& state,
+                                const KnownFrame* known, const Progress& progress) {
+  RotoscopedFrame result{plan_film_frame(photographed, options, state, known, progress), {}};
+  report(progress, "drawing", 0);
+  const Stopwatch watch(result.painting_times.rasterising_s);
+  DrawnFrame drawn = draw_film_frame(result.painting, result.showing);
+  result.pictures = std::move(drawn.pictures);
+  result.worst_bare_share = drawn.worst_bare_share;
+  state.totals.worst_bare_share = std::max(state.totals.worst_bare_share, drawn.worst_bare_share);
   return result;
 }
 

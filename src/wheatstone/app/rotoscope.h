@@ -11,7 +11,8 @@
 #include "wheatstone/app/scene_rectification.h"
 #include "wheatstone/matching/match.h"
 #include "wheatstone/motion/flow.h"
-#include "wheatstone/painting/paint_frame.h"
+#include "wheatstone/painting/paint.h"
+#include "wheatstone/painting/plan_painting.h"
 #include "wheatstone/painting/two_eyes.h"
 #include "wheatstone/progress.h"
 #include "wheatstone/stereo/central_view.h"
@@ -94,25 +95,34 @@ struct RotoscopeTimes {
   double flow_s = 0;
 };
 
-struct RotoscopedFrame {
-  Painting painting;
-  FramePictures pictures;
-  double worst_bare_share = 0;  ///< of the pixels of an eye or a view, 0..1
+/// The next frame of a film, planned. Whoever draws it needs nothing but its painting and how that is shown.
+struct PlannedFilmFrame {
+  Painting painting;  ///< complete: with the marks that repair what the drawn frame would show wrongly
+  FrameShowing showing;
   StrokeCounts counts;
   StrokeChanges changes;  ///< from the frame before; nothing where a scene begins
   bool scene_begins = false;
-  TwoEyes eyes;           ///< that it was drawn for, where it was drawn for two
+  TwoEyes eyes;           ///< that it is drawn for, where it is drawn for two
   std::string rows_note;  ///< as MeasuredScene has it, where the frame was measured
   RotoscopeTimes times;   ///< beside those of painting
   PaintingTimes painting_times;
 };
 
-/// Paints the next frame of a film (Bukenberger et al. 2015): rectifies it as its scene's first frame asks for, finds
-/// its disparity, merges the eyes into the central view, finds the flow there from the frame before, and paints what
+struct RotoscopedFrame : PlannedFilmFrame {
+  FramePictures pictures;
+  double worst_bare_share = 0;  ///< of the pixels of an eye or a view, 0..1
+};
+
+/// Plans the next frame of a film (Bukenberger et al. 2015): rectifies it as its scene's first frame asks for, finds
+/// its disparity, merges the eyes into the central view, finds the flow there from the frame before, and plans what
 /// that flow carries on. `photographed.right` is empty for a film of one eye; where its depth is known, it is painted
 /// as the left eye of a pair. Throws Error{bad_input} where the eyes, or this frame and the last, differ in size, or a
 /// film of one eye is to be shown on a display, wrong_usage for options that make no sense. `progress` is called
 /// between its steps and while it matches. If it throws, painting ends, and `state` is of no further use.
+PlannedFilmFrame plan_film_frame(const StereoPair& photographed, const RotoscopeOptions& options, RotoscopeState& state,
+                                 const KnownFrame* known = nullptr, const Progress& progress = {});
+
+/// Plans the frame and draws it (draw_film_frame). The state's totals learn how much of it is bare.
 RotoscopedFrame rotoscope_frame(const StereoPair& photographed, const RotoscopeOptions& options, RotoscopeState& state,
                                 const KnownFrame* known = nullptr, const Progress& progress = {});
 

@@ -5,19 +5,15 @@
 #include <algorithm>
 #include <chrono>
 #include <ctime>
-#include <mutex>
 #include <system_error>
 
-#include "wheatstone/app/eyes_in_film.h"
-#include "wheatstone/app/marks_sequence_internal.h"
+#include "wheatstone/app/film_output_internal.h"
 #include "wheatstone/app/painted_film.h"
 #include "wheatstone/app/passed_frames_internal.h"
 #include "wheatstone/app/rotoscope_state_file.h"
 #include "wheatstone/error.h"
 #include "wheatstone/files/struct_fields.h"
-#include "wheatstone/files/unfinished_outputs.h"
 #include "wheatstone/marks/painting_file.h"
-#include "wheatstone/video/frame_sequence.h"
 #include "wheatstone/video/segmented_film.h"
 #include "wheatstone/video/work_folder.h"
 
@@ -33,145 +29,12 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 /// Processor time of all threads of this process.
 double processor_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
-/// The files that decide the film's bytes, including networks.
-std::vector<fs::path> sources_of(const RotoscopeFilmOptions& options) {
-  std::vector<fs::path> sources = options.made_from;
-  for (const fs::path& network : {options.frames.matching.model, options.frames.flow_model})
-    if (!network.empty()) sources.push_back(network);
-  return sources;
-}
-
-/// The pattern of the names of the files of marks; empty where none are written.
-fs::path marks_of(const fs::path& output, const RotoscopeFilmOptions& options) {
-  return output.extension() == ".wst" ? output : options.marks;
-}
-
-fs::path state_file(const fs::path& output, std::int64_t frames) {
-  return work_folder_of(output) / fmt::format("state_{:09}", frames);
-}
-
 /// A painted frame in one picture, and when it is shown.
 Frame frame_of(FramePictures pictures, const StereoFrame& source, const RotoscopeFilmOptions& options) {
-  const auto* const eyes = std::get_if<StereoPair>(&pictures);
   const StereoLayout layout = options.right_film.empty() ? options.writing.layout : StereoLayout::left_right;
-  return {
-      eyes != nullptr ? put_into_frame(*eyes, layout, options.anaglyph) : std::get<Image<Rgb8>>(std::move(pictures)),
-      source.pts, source.time_base, source.duration};
+  return {picture_in_film(std::move(pictures), layout, options.anaglyph), source.pts, source.time_base,
+          source.duration};
 }
-
-/// Where frames go: a film that is being made, or one for each eye, or only files of marks.
-class Output {
- public:
-  Output(const fs::path& path, const RotoscopeFilmOptions& options)
-      : path_(path), frames_between_checkpoints_(options.frames_between_checkpoints) {
-    const bool only_marks = path.extension() == ".wst";
-    if (only_marks && options.resume)
-      throw Error(ErrorKind::wrong_usage, "a run that writes only marks cannot be resumed: write a film too");
-    const fs::path marks = marks_of(path, options);
-    if (!marks.empty()) check_marks(marks);
-    or_leave_nothing([&] {
-      if (!only_marks) open_film(path, options);
-      if (!only_marks && !options.right_film.empty()) open_film(options.right_film, options);
-      if (!marks.empty()) marks_.emplace(marks, frames_done());
-    });
-  }
-
-  /// Frames that are safe: an earlier run has left them, or this one has closed them.
-  std::int64_t frames_done() const {
-    std::int64_t least = films_.empty() ? 0 : films_.front().frames_done();
-    for (const SegmentedFilm& film : films_) least = std::min(least, film.frames_done());
-    return least;
-  }
-
-  /// After the frames that are done.
-  RotoscopeState state() const {
-    return frames_done() > 0 ? read_rotoscope_state(state_file(path_, frames_done())) : RotoscopeState();
-  }
-
-  void write_marks(const Painting& painting, const RotoscopeState& state) {
-    if (marks_) marks_->write(state.frames, painting);
-  }
-
-  void write(Frame frame, const RotoscopeState& state) {
-    if (films_.empty()) return;
-    const bool at_checkpoint = state.frames % frames_between_checkpoints_ == 0;
-    // Before the segment of these frames is closed: each closed segment has its state.
-    if (at_checkpoint) write_rotoscope_state(state_file(path_, state.frames), state);
-    // The film's frames and their marks are kept together.
-    std::unique_lock<std::recursive_mutex> hold;
-    if (at_checkpoint) hold = hold_outputs();
-    const std::vector<Frame> frames = frames_of_films(std::move(frame), films_.size());
-    // A run may have been killed when one film had closed a segment and the other had not yet.
-    for (std::size_t i = 0; i < films_.size(); ++i)
-      if (state.frames > kept_[i]) films_[i].write(frames[i]);
-    if (!at_checkpoint) return;
-    if (marks_) marks_->keep();
-    std::error_code ignored;
-    fs::remove(state_file(path_, state.frames - frames_between_checkpoints_), ignored);
-  }
-
-  std::vector<std::string> finish(const RotoscopeState& state, const Progress& progress) {
-    // The film and its marks get their names together: no signal may end the program in between.
-    const auto hold = hold_outputs();
-    if (!films_.empty()) {
-      // Joining closes the last segment, and may be stopped, too.
-      if (state.frames > frames_done()) write_rotoscope_state(state_file(path_, state.frames), state);
-      if (marks_) marks_->check(state.frames);
-      const RotoscopeTotals& totals = state.totals;
-      for (SegmentedFilm& film : films_) {
-        if (totals.moved_frames > 0) film.set_comment(moved_eyes_note(totals.moved_frames, totals.least_separation));
-        // Stopped between two films, the run would leave one of them.
-        film.finish(&film == &films_.front() ? progress : Progress());
-      }
-    }
-    if (marks_) marks_->give_names(state.frames);
-    return films_.empty() ? std::vector<std::string>() : films_.front().notes();
-  }
-
-  /// Removes what cannot be resumed.
-  void discard() {
-    if (marks_) marks_->discard();
-    for (SegmentedFilm& film : films_) film.discard();
-  }
-
- private:
-  void open_film(const fs::path& path, const RotoscopeFilmOptions& options) {
-    films_.emplace_back(
-        path, options.writing,
-        SegmentOptions{options.frames_between_checkpoints, recipe_of(options), sources_of(options), options.resume});
-    kept_.push_back(films_.back().frames_done());
-  }
-
-  /// Where nothing was painted yet, a failure leaves nothing.
-  template <class Open>
-  void or_leave_nothing(Open open) {
-    try {
-      open();
-    } catch (const Error&) {
-      for (SegmentedFilm& film : films_)
-        if (film.frames_done() == 0) film.discard();
-      throw;
-    }
-  }
-
-  static void check_marks(const fs::path& path) {
-    const std::optional<FramePattern> pattern = frame_pattern(path);
-    if (!pattern)
-      throw Error(ErrorKind::wrong_usage,
-                  fmt::format("{}: has no frame number pattern, expected a name like marks_%04d.wst", path.string()));
-    const std::vector<std::int64_t> existing = numbers_of(*pattern);
-    if (!existing.empty())
-      throw Error(ErrorKind::wrong_usage,
-                  fmt::format("{}: {} exists already, expected no such file, because frames of two runs would be mixed",
-                              path.string(), pattern->file(existing.front()).filename().string()));
-  }
-
-  fs::path path_;
-  int frames_between_checkpoints_;
-  std::vector<SegmentedFilm> films_;
-  std::vector<std::int64_t> kept_;  ///< frames that an earlier run has left of each
-  std::optional<MarksSequence> marks_;
-};
 
 /// "painting frame 12 of 240, 2.10 a second".
 std::string step_text(std::int64_t frame, std::int64_t expected, std::int64_t done_before, double seconds) {
@@ -190,27 +53,29 @@ void add(const RotoscopeTimes& times, const PaintingTimes& painting, RotoscopedF
   film.painting_times.rasterising_s += painting.rasterising_s;
 }
 
-void add(const RotoscopedFrame& frame, RotoscopedFilm& film) { add(frame.times, frame.painting_times, film); }
+void add(const PlannedFilmFrame& frame, RotoscopedFilm& film) { add(frame.times, frame.painting_times, film); }
 
-/// Paints a frame that was read; its pictures are for reading the next one into.
-RotoscopedFrame paint_frame_of(StereoFrame& frame, const RotoscopeFilmOptions& options, RotoscopeState& state,
-                               const Progress& progress) {
+/// Plans a frame that was read, or paints it: `make` is plan_film_frame or rotoscope_frame. The frame's pictures are
+/// for reading the next one into.
+template <class Make>
+auto make_frame_of(Make make, StereoFrame& frame, const RotoscopeFilmOptions& options, RotoscopeState& state,
+                   const Progress& progress) {
   StereoPair eyes{std::move(frame.left), std::move(frame.right)};
   std::optional<KnownFrame> known;
   if (options.known) known = options.known(state.frames, eyes.left);
   if (known && known->flow && !options.ranks.alone())
     throw Error(ErrorKind::wrong_usage, "frames whose flow is known are painted in one process, not under mpirun");
-  RotoscopedFrame painted = rotoscope_frame(eyes, options.frames, state, known ? &*known : nullptr, progress);
+  auto made = make(eyes, options.frames, state, known ? &*known : nullptr, progress);
   frame.left = std::move(eyes.left);
   frame.right = std::move(eyes.right);
-  return painted;
+  return made;
 }
 
 std::string note_of(std::int64_t frame, const std::string& rows_note) {
   return fmt::format("from frame {} on, {}", frame, rows_note);
 }
 
-RotoscopedFilm paint_frames(StereoFilmReader& source, Output& output, const RotoscopeFilmOptions& options,
+RotoscopedFilm paint_frames(StereoFilmReader& source, FilmOutput& output, const RotoscopeFilmOptions& options,
                             const Progress& progress, RotoscopeState& state) {
   RotoscopedFilm film;
   film.resumed_frames = source.skip(output.frames_done());
@@ -226,11 +91,18 @@ RotoscopedFilm paint_frames(StereoFilmReader& source, Output& output, const Roto
     // The steps within a frame are asked only whether to go on.
     const Progress within = [&](std::string_view, double) { report(progress, text, share); };
     within("", 0);
-    RotoscopedFrame painted = paint_frame_of(frame, options, state, within);
-    output.write_marks(painted.painting, state);
-    output.write(frame_of(std::move(painted.pictures), frame, options), state);
-    add(painted, film);
-    if (!painted.rows_note.empty()) film.notes.push_back(note_of(film.frames, painted.rows_note));
+    const auto keep = [&](const PlannedFilmFrame& made) {
+      output.write_marks(made, frame, state);
+      add(made, film);
+      if (!made.rows_note.empty()) film.notes.push_back(note_of(film.frames, made.rows_note));
+    };
+    if (output.is_plan()) {
+      keep(make_frame_of(plan_film_frame, frame, options, state, within));
+    } else {
+      RotoscopedFrame painted = make_frame_of(rotoscope_frame, frame, options, state, within);
+      keep(painted);
+      output.write(frame_of(std::move(painted.pictures), frame, options), state);
+    }
   }
   if (film.frames == 0) throw Error(ErrorKind::wrong_usage, "the film has no frame in the requested time range");
   film.totals = state.totals;
@@ -257,7 +129,7 @@ RotoscopeTotals together(const RotoscopeTotals& a, const RotoscopeTotals& b) {
 class SharedWork {
  public:
   /// `output` is at the first of the ranks only.
-  SharedWork(StereoFilmReader& source, Output* output, const fs::path& path, const RotoscopeFilmOptions& options,
+  SharedWork(StereoFilmReader& source, FilmOutput* output, const fs::path& path, const RotoscopeFilmOptions& options,
              const Progress& progress)
       : source_(source),
         output_(output),
@@ -304,7 +176,7 @@ class SharedWork {
                                                       options_.scenes.frames));
       const Progress within = [&](std::string_view, double) { tell(written.frames); };
       within("", 0);
-      pass(paint_frame_of(frame, options_, state, within), frame, state);
+      pass(make_frame_of(rotoscope_frame, frame, options_, state, within), frame, state);
       write_what_came(written);
       meet_now_and_then();
     }
@@ -386,7 +258,7 @@ class SharedWork {
   }
 
   StereoFilmReader& source_;
-  Output* output_;
+  FilmOutput* output_;
   const fs::path& path_;
   const RotoscopeFilmOptions& options_;
   const Progress& progress_;
@@ -401,7 +273,8 @@ class SharedWork {
 };
 
 /// Keeps the finished part of a film that an error stopped, if it can be resumed. Throws the error, or UnfinishedFilm.
-[[noreturn]] void leave(const Error& error, bool painted, Output& out, const fs::path& output, const fs::path& marks) {
+[[noreturn]] void leave(const Error& error, bool painted, FilmOutput& out, const fs::path& output,
+                        const fs::path& marks) {
   const bool can_go_on =
       painted || error.kind() == ErrorKind::interrupted || error.kind() == ErrorKind::cannot_read_write;
   const std::int64_t kept = out.frames_done();
@@ -423,8 +296,8 @@ Error agreed(const Error& error, const Ranks& ranks) {
 std::string recipe_of(const RotoscopeFilmOptions& options) {
   // Whoever adds a member says here whether it decides a byte. Not in the text: `writing` and the interval, which the
   // film's segments compare themselves, the sources, which are compared by what is in them, and what only says how
-  // the run goes: resume, keep_going, expected_frames, ranks and their scenes.
-  static_assert(field_count<RotoscopeFilmOptions>() == 15);
+  // the run goes: plan, version, resume, keep_going, expected_frames, ranks and their scenes.
+  static_assert(field_count<RotoscopeFilmOptions>() == 17);
   RotoscopeOptions frames = options.frames;
   frames.matching.model.clear();  // their content is compared
   frames.flow_model.clear();
@@ -445,7 +318,7 @@ std::optional<std::string> unfinished_film(const fs::path& output, const fs::pat
 
 RotoscopedFilm rotoscope_film(StereoFilmReader& source, const fs::path& output, const RotoscopeFilmOptions& options,
                               const Progress& progress) {
-  std::optional<Output> out;
+  std::optional<FilmOutput> out;
   if (options.ranks.first()) out.emplace(output, options);
   // A damaged state is reported but not removed: the user decides.
   RotoscopeState state = out ? out->state() : RotoscopeState();
@@ -469,9 +342,12 @@ RotoscopedFilm rotoscope_film(StereoFilmReader& source, const fs::path& output, 
   }
   for (std::string& note : notes_on_reading(source.facts())) film.notes.push_back(std::move(note));
   film.loss = source.loss();
-  if (film.loss && !options.keep_going)
-    throw Error(ErrorKind::bad_input, fmt::format("{}; the {} frames that could be decoded were painted to {}",
-                                                  *film.loss, film.frames, output.string()));
+  if (film.loss && !options.keep_going) {
+    const bool is_plan = !options.plan.empty();
+    throw Error(ErrorKind::bad_input,
+                fmt::format("{}; the {} frames that could be decoded were {} to {}", *film.loss, film.frames,
+                            is_plan ? "planned" : "painted", (is_plan ? options.plan : output).string()));
+  }
   return film;
 }
 

@@ -23,6 +23,10 @@ struct RotoscopeFilmOptions {
   /// The film of the right eye, where the output is that of the left eye alone; empty: both eyes are in the output.
   std::filesystem::path right_film;
   std::filesystem::path marks;  ///< "marks_%04d.wst" also keeps each frame's marks, from 1 on; empty: no
+  /// A folder that gets the film's plan (film_plan.h): frames are planned and not drawn; `writing` and the output say
+  /// what is to be made of them. Empty: the film is made at once.
+  std::filesystem::path plan;
+  std::string version;  ///< of the program, for a plan
   int frames_between_checkpoints = 48;
   bool resume = false;      ///< continue the unfinished film of an earlier run; without it, such a film is an error
   bool keep_going = false;  ///< a damaged source is a note, not an error
@@ -62,6 +66,7 @@ std::optional<std::string> unfinished_film(const std::filesystem::path& output, 
 /// until then they lie in "MARKS.part". A run that is stopped before the first of these intervals is painted leaves
 /// nothing behind; later it leaves these two folders and nothing else, and throws UnfinishedFilm{interrupted}. An
 /// output of the form "marks_%04d.wst" keeps marks and no pictures, and cannot be resumed: stopped, it leaves nothing.
+/// So does a plan.
 /// Throws as the reader, the writer and rotoscope_frame do, Error{wrong_usage} where marks of such names exist, and
 /// Error{bad_input} after the film is written where the source is damaged, unless `keep_going`.
 /// A program that must end at once leaves as little (remove_unfinished_outputs). Of several ranks, all throw the same,

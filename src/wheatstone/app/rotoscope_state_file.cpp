@@ -1,19 +1,12 @@
 #include "wheatstone/app/rotoscope_state_file.h"
 
-#include <fmt/format.h>
-#include <zlib.h>
-
-#include <algorithm>
 #include <limits>
 
-#include "wheatstone/error.h"
-#include "wheatstone/files/field_bytes.h"
+#include "wheatstone/app/field_file_internal.h"
 #include "wheatstone/files/whole_file.h"
 
 namespace wheatstone {
 
-template <>
-inline constexpr bool is_number<ViewPosition> = true;
 // It holds C arrays, whose members cannot be told; it has no gaps.
 template <>
 inline constexpr bool is_number<CarriedEdge> = true;
@@ -21,19 +14,7 @@ static_assert(sizeof(CarriedEdge) == 13 * sizeof(float));
 
 namespace {
 
-constexpr std::string_view magic = "WSRSTATE";
-constexpr std::size_t head_bytes = magic.size() + sizeof(std::uint32_t);
-
-std::uint32_t checksum_of(std::string_view bytes) {
-  return static_cast<std::uint32_t>(
-      crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));  // NOLINT: zlib's own type
-}
-
-std::string head_of(std::string_view content) {
-  FieldWriter head{std::string(magic)};
-  head(checksum_of(content));
-  return std::move(head.bytes);
-}
+constexpr FieldFile state_format{"WSRSTATE", "delete its folder to start again"};
 
 /// Throws where lengths, indices and sizes of pictures do not fit together: those who use the state trust them.
 class Check {
@@ -105,35 +86,14 @@ class Check {
 }  // namespace
 
 std::string rotoscope_state_with_checksum(std::string_view members) {
-  FieldWriter content;
-  content(layout_of<RotoscopeState>());
-  content.bytes += members;
-  return head_of(content.bytes) + content.bytes;
+  return field_file_of_members<RotoscopeState>(state_format, members);
 }
 
-std::string encode_rotoscope_state(const RotoscopeState& state) {
-  FieldWriter members;
-  members(state);
-  return rotoscope_state_with_checksum(members.bytes);
-}
+std::string encode_rotoscope_state(const RotoscopeState& state) { return encode_field_file(state_format, state); }
 
 RotoscopeState decode_rotoscope_state(std::string_view bytes, std::string_view name) {
-  const std::string_view content = bytes.substr(std::min(bytes.size(), head_bytes));
-  FieldReader reader(content, fmt::format("{}: is damaged, delete its folder to start again", name));
-  reader.expect(bytes.substr(0, head_bytes) == head_of(content));
-  std::uint32_t layout = 0;
-  reader(layout);
-  if (layout != layout_of<RotoscopeState>())
-    throw Error(
-        ErrorKind::bad_input,
-        fmt::format("{}: was written by another version of Wheatstone; continue with that version, or delete its "
-                    "folder to start again",
-                    name));
-  RotoscopeState state;
-  reader(state);
-  reader.expect_end();
-  Check(state, reader);
-  return state;
+  return decode_field_file<RotoscopeState>(
+      state_format, bytes, name, [](const RotoscopeState& state, const FieldReader& reader) { Check(state, reader); });
 }
 
 void write_rotoscope_state(const std::filesystem::path& path, const RotoscopeState& state) {

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <cstring>
+#include <filesystem>
 #include <string>
 #include <string_view>
 
@@ -11,11 +12,13 @@
 namespace wheatstone {
 
 // Values as bytes for this program on this machine, member by member in the order of their declaration, exactly to the
-// bit: numbers, strings, images, structs, and optionals, vectors and arrays of these. One visitor writes and reads.
+// bit: numbers, enumerators, strings, paths, images, structs, and optionals, vectors and arrays of these. One visitor
+// writes and reads.
 
 /// A class whose bytes are its value, such as one that wraps a number. Specialise it for such a class.
 template <class Value>
-inline constexpr bool is_number = std::is_arithmetic_v<Value> && !std::is_same_v<Value, bool>;
+inline constexpr bool is_number =
+    (std::is_arithmetic_v<Value> && !std::is_same_v<Value, bool>) || std::is_enum_v<Value>;
 
 namespace fields_internal {
 
@@ -142,6 +145,10 @@ void visit(Archive& archive, Value& value) {
       if (set) value.emplace();
     }
     if (set) visit(archive, *value);
+  } else if constexpr (std::is_same_v<Plain, std::filesystem::path>) {
+    std::string name = value.string();
+    visit(archive, name);
+    if constexpr (!std::is_const_v<Value>) value = name;
   } else if constexpr (fields_internal::IsImage<Plain>) {
     static_assert(fields_internal::is_packed<std::remove_cvref_t<decltype(value.pixels()[0])>>());
     archive.resize_image(value);
@@ -168,6 +175,8 @@ constexpr std::uint32_t layout_of(std::uint32_t before = 2166136261u) {
   };
   if constexpr (is_number<Value> || std::is_same_v<Value, bool>) {
     return mixed(before, sizeof(Value) + (std::is_integral_v<Value> ? 16 : 32) + std::is_signed_v<Value> * 64);
+  } else if constexpr (std::is_same_v<Value, std::filesystem::path>) {
+    return layout_of<std::string>(mixed(before, 2));
   } else if constexpr (fields_internal::IsImage<Value>) {
     return layout_of<std::remove_cvref_t<decltype(std::declval<Value&>().pixels()[0])>>(mixed(before, 1));
   } else if constexpr (fields_internal::IsOptional<Value>::value || fields_internal::IsVector<Value>::value ||

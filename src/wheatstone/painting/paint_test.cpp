@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "scenes/painted_frame.h"
 #include "scenes/two_surfaces.h"
 #include "spilling_share.h"
 #include "temporary_folder.h"
@@ -14,7 +15,6 @@
 #include "wheatstone/marks/painting_file.h"
 #include "wheatstone/measures/consistency.h"
 #include "wheatstone/measures/wrong_spots.h"
-#include "wheatstone/painting/paint_frame.h"
 #include "wheatstone/painting/two_eyes.h"
 #include "wheatstone/stereo/central_view.h"
 #include "wheatstone/strokes/stroke_measures.h"

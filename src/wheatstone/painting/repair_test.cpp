@@ -10,11 +10,11 @@
 #include <vector>
 
 #include "largest_difference.h"
+#include "scenes/painted_frame.h"
 #include "wheatstone/drawing/draw.h"
 #include "wheatstone/marks/residual.h"
 #include "wheatstone/measures/wrong_spots.h"
 #include "wheatstone/painting/paint.h"
-#include "wheatstone/painting/paint_frame.h"
 #include "wheatstone/stereo/geometry_from_disparity.h"
 #include "wheatstone/synthetic/synthetic_film.h"
 

@@ -10,6 +10,7 @@
 #include <optional>
 #include <vector>
 
+#include "scenes/painted_frame.h"
 #include "scenes/short_film.h"
 #include "throws_error.h"
 #include "wheatstone/measures/consistency.h"
@@ -17,7 +18,6 @@
 #include "wheatstone/measures/film_measures.h"
 #include "wheatstone/measures/view_measures.h"
 #include "wheatstone/measures/wrong_spots.h"
-#include "wheatstone/painting/paint_frame.h"
 #include "wheatstone/random.h"
 #include "wheatstone/strokes/carry_strokes_internal.h"
 #include "wheatstone/strokes/misplaced_strokes_internal.h"

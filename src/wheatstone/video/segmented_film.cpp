@@ -70,10 +70,46 @@ FilmWriterOptions options_of_segments(const FilmWriterOptions& options, bool is_
 
 }  // namespace
 
+struct FilmSegment::Implementation {
+  fs::path folder;
+  std::int64_t number;
+  FilmWriterOptions options;
+  FrameSteps steps;
+  std::unique_ptr<SegmentFile> file;
+};
+
+FilmSegment::FilmSegment(fs::path folder, std::int64_t number, const fs::path& film, const FilmWriterOptions& options)
+    : implementation_(std::make_unique<Implementation>(
+          Implementation{std::move(folder), number, options_of_segments(options, frame_pattern(film).has_value()),
+                         FrameSteps(film), nullptr})) {
+  check_encoding(implementation_->options);
+}
+FilmSegment::FilmSegment(FilmSegment&&) noexcept = default;
+FilmSegment& FilmSegment::operator=(FilmSegment&&) noexcept = default;
+FilmSegment::~FilmSegment() = default;
+
+void FilmSegment::write(const Frame& frame) {
+  Implementation& own = *implementation_;
+  own.steps.check(frame);
+  if (!own.file) own.file = std::make_unique<SegmentFile>(own.folder, own.number, own.options, frame);
+  own.file->add(frame);
+}
+
+void FilmSegment::finish() {
+  implementation_->steps.check_any();
+  implementation_->file->finish();
+  implementation_->file.reset();
+}
+
+std::int64_t frames_of_segment(const fs::path& folder, std::int64_t number) {
+  const std::optional<SegmentTimes> times = segment_times(folder, number);
+  return times ? static_cast<std::int64_t>(times->size()) : 0;
+}
+
 std::int64_t frames_kept(const fs::path& film) {
   std::int64_t frames = 0;
-  for (std::int64_t number = 0; const auto times = segment_times(work_folder_of(film), number); ++number)
-    frames += static_cast<std::int64_t>(times->size());
+  for (std::int64_t number = 0; const std::int64_t more = frames_of_segment(work_folder_of(film), number); ++number)
+    frames += more;
   return frames;
 }
 
@@ -99,11 +135,17 @@ struct SegmentedFilm::Implementation {
     folder = work_folder_of(path);
     claim(folder, fingerprint_of(options, segments), segments.resume);
     sweep(folder);
-    while (auto times = segment_times(folder, whole_segments)) {
-      frames_done += static_cast<std::int64_t>(times->size());
+    closed = folder;
+    count_segments();
+    held->keep(frames_done > 0);
+  }
+
+  void count_segments() {
+    frames_done = whole_segments = 0;
+    while (const std::int64_t frames = frames_of_segment(closed, whole_segments)) {
+      frames_done += frames;
       ++whole_segments;
     }
-    held->keep(frames_done > 0);
   }
 
   void close_segment() {
@@ -118,7 +160,7 @@ struct SegmentedFilm::Implementation {
   void join_as_pictures(const Progress& progress) {
     SequenceFile sequence(*pattern, folder / pictures_folder, options.layout);
     for (std::int64_t number = 0; number < whole_segments; ++number) {
-      FilmReader reader = open_film(segment_film(folder, number));
+      FilmReader reader = open_film(segment_film(closed, number));
       for (Frame frame; reader.read(frame);) sequence.add(frame.picture);
       report(progress, "join", static_cast<double>(number + 1) / static_cast<double>(whole_segments));
     }
@@ -132,6 +174,7 @@ struct SegmentedFilm::Implementation {
   int frames_per_segment;
   FrameSteps steps;
   fs::path folder;
+  fs::path closed;  ///< where the closed segments lie: the same folder, unless they were taken from another
   std::optional<WorkFolder> held;
   std::unique_ptr<SegmentFile> segment;
   std::int64_t whole_segments = 0;
@@ -158,6 +201,11 @@ void SegmentedFilm::write(const Frame& frame) {
   if (own.segment->size() >= static_cast<std::size_t>(own.frames_per_segment)) own.close_segment();
 }
 
+void SegmentedFilm::take_segments(const fs::path& folder) {
+  implementation_->closed = folder;
+  implementation_->count_segments();
+}
+
 void SegmentedFilm::set_comment(const std::string& comment) { implementation_->options.comment = comment; }
 
 void SegmentedFilm::finish(const Progress& progress) {
@@ -167,7 +215,7 @@ void SegmentedFilm::finish(const Progress& progress) {
   if (own.pattern) {
     own.join_as_pictures(progress);
   } else {
-    join_segments({own.folder, own.whole_segments}, own.path, own.options, own.notes, progress);
+    join_segments({own.closed, own.whole_segments}, own.path, own.options, own.notes, progress);
   }
   own.held->remove();
 }

@@ -29,6 +29,32 @@ struct SegmentOptions {
 /// How many frames a film that is not finished has in closed files; 0 where there is none.
 std::int64_t frames_kept(const std::filesystem::path& film);
 
+/// A closed file of frames of a film, coded afresh: one of those that a SegmentedFilm writes, made apart from the
+/// others. Segments of one film may be made in any order, by any number of processes.
+class FilmSegment {
+ public:
+  /// `number` counts from 0; `film` and `options` are those of the whole film. Throws as FilmWriter.
+  FilmSegment(std::filesystem::path folder, std::int64_t number, const std::filesystem::path& film,
+              const FilmWriterOptions& options);
+  FilmSegment(FilmSegment&&) noexcept;
+  FilmSegment& operator=(FilmSegment&&) noexcept;
+  ~FilmSegment();
+
+  /// As FilmWriter::write.
+  void write(const Frame& frame);
+
+  /// Closes the file. Destroyed before, the segment leaves nothing.
+  void finish();
+
+ private:
+  struct Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+/// How many frames the closed segment of this number in a folder has; 0 where there is none. Throws Error{bad_input}
+/// where it is damaged.
+std::int64_t frames_of_segment(const std::filesystem::path& folder, std::int64_t number);
+
 /// A film that takes long to make and may be killed at any moment. Beside `out.mp4` lies a folder `out.mp4.part` with a
 /// manifest and closed files of `frames_per_segment` frames each, every one coded afresh. `finish` joins them, without
 /// coding again, into the film, copies the side streams, and removes the folder. Destroyed before, it leaves the
@@ -49,6 +75,9 @@ class SegmentedFilm {
 
   /// As FilmWriter::write.
   void write(const Frame& frame);
+
+  /// Takes closed segments, from 0 on, from another folder, where they stay. No frame can be written to this film.
+  void take_segments(const std::filesystem::path& folder);
 
   /// A comment that the film is to carry, where it cannot be told before all frames are there.
   void set_comment(const std::string& comment);

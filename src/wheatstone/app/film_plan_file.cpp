@@ -1,0 +1,142 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "wheatstone/app/field_file_internal.h"
+#include "wheatstone/app/film_plan_file_internal.h"
+#include "wheatstone/error.h"
+#include "wheatstone/files/whole_file.h"
+#include "wheatstone/marks/painting_file.h"
+#include "wheatstone/pictures/read_image.h"
+#include "wheatstone/pictures/write_image.h"
+
+namespace wheatstone {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr FieldFile plan_format{"WSPLAN 1", "plan the film again"};
+constexpr auto plan_name = "plan";
+
+std::string marks_name(std::int64_t number) { return fmt::format("marks_{:06}.wst", number); }
+
+std::string background_name(std::int64_t number, std::size_t place) {
+  return fmt::format("{}_{:06}.png", place == 0 ? "left" : "right", number);
+}
+
+/// Whether a frame can be shown so: those who draw it trust these numbers.
+bool can_be_shown(const PlannedShowing& showing) {
+  constexpr int largest_side_px = 65535;
+  constexpr std::size_t most_views = 4096;
+  const auto is_side = [](int side) { return side >= 0 && side <= largest_side_px; };
+  const Placement& placement = showing.placement;
+  bool holds = !showing.views.empty() && showing.views.size() <= most_views && is_side(placement.width) &&
+               is_side(placement.height) && placement.scale > 0 && std::isfinite(placement.scale) &&
+               std::isfinite(placement.left) && std::isfinite(placement.top) &&
+               std::isfinite(placement.zero_parallax_px) && showing.time_base.numerator > 0 &&
+               showing.time_base.denominator > 0 && !(showing.quilt && showing.screen) &&
+               showing.device <= Device::automatic;
+  for (const ViewPosition view : showing.views) holds = holds && std::isfinite(view.eye_separations());
+  if (const auto& quilt = showing.quilt)
+    holds = holds && is_side(quilt->columns) && is_side(quilt->rows) &&
+            std::size_t(quilt->columns) * std::size_t(quilt->rows) == showing.views.size();
+  if (const auto& screen = showing.screen)
+    holds = holds && is_side(screen->width) && is_side(screen->height) && std::isfinite(screen->pitch) &&
+            std::isfinite(screen->center) && screen->dpi > 0 && std::isfinite(screen->dpi) && screen->slope != 0 &&
+            std::isfinite(screen->slope);
+  return holds && (showing.backgrounds == 0 ||
+                   (showing.backgrounds <= 2 && std::size_t(showing.backgrounds) == showing.views.size()));
+}
+
+void check_plan(const FilmPlan& plan, const FieldReader& reader) {
+  reader.expect(!plan.frames.empty() && plan.frames_per_segment > 0 && !plan.film.empty() &&
+                plan.writing.layout <= StereoLayout::alternating);
+  for (const PlannedShowing& frame : plan.frames) reader.expect(can_be_shown(frame));
+}
+
+PlannedShowing planned_showing(const FrameShowing& showing, const StereoFrame& times) {
+  const Presentation& presentation = showing.presentation;
+  PlannedShowing planned{.views = presentation.views,
+                         .placement = presentation.placement,
+                         .quilt = {},
+                         .screen = {},
+                         .device = presentation.device,
+                         .backgrounds = static_cast<std::int32_t>(showing.backgrounds.size()),
+                         .pts = times.pts,
+                         .time_base = times.time_base,
+                         .duration = times.duration};
+  if (const auto& composition = presentation.composition) {
+    if (const auto* const quilt = std::get_if<QuiltLayout>(&*composition))
+      planned.quilt = *quilt;
+    else
+      planned.screen = std::get<LenticularScreen>(*composition);
+  }
+  return planned;
+}
+
+}  // namespace
+
+std::string film_plan_with_checksum(std::string_view members) {
+  return field_file_of_members<FilmPlan>(plan_format, members);
+}
+
+std::string encode_film_plan(const FilmPlan& plan) { return encode_field_file(plan_format, plan); }
+
+FilmPlan decode_film_plan(std::string_view bytes, std::string_view name) {
+  return decode_field_file<FilmPlan>(plan_format, bytes, name, check_plan);
+}
+
+FilmPlan read_film_plan(const fs::path& folder, std::string_view version) {
+  std::error_code ignored;
+  if (!fs::exists(folder / plan_name, ignored))
+    throw Error(ErrorKind::bad_input,
+                fmt::format("{}: is no plan of a film, expected a folder that --plan made", folder.string()));
+  const std::string bytes = read_whole_file(folder / plan_name, std::numeric_limits<std::size_t>::max());
+  FilmPlan plan = decode_film_plan(bytes, folder.string());
+  if (plan.version != version)
+    throw Error(ErrorKind::bad_input, fmt::format("{}: was planned by Wheatstone {}, expected {}; plan the film again, "
+                                                  "or draw and join it with that version",
+                                                  folder.string(), plan.version, version));
+  return plan;
+}
+
+FilmPlanWriter::FilmPlanWriter(const fs::path& folder)
+    : folder_([&] {
+        std::error_code ignored;
+        if (fs::exists(fs::symlink_status(folder, ignored)))
+          throw Error(
+              ErrorKind::wrong_usage,
+              fmt::format("{}: exists already, expected no such file, because plans of two films would be mixed",
+                          folder.string()));
+        return folder;
+      }()) {}
+
+void FilmPlanWriter::write(const PlannedFilmFrame& frame, const StereoFrame& times) {
+  frames_.push_back(planned_showing(frame.showing, times));
+  const auto number = static_cast<std::int64_t>(frames_.size());
+  write_painting(folder_.file(marks_name(number)), frame.painting);
+  for (std::size_t i = 0; i < frame.showing.backgrounds.size(); ++i)
+    write_image(folder_.file(background_name(number, i)), frame.showing.backgrounds[i]);
+}
+
+void FilmPlanWriter::finish(FilmPlan plan) {
+  plan.frames = std::move(frames_);
+  write_whole_file(folder_.file(plan_name), encode_film_plan(plan));
+  folder_.commit();
+}
+
+FrameOfPlan read_planned_frame(const fs::path& folder, const FilmPlan& plan, std::int64_t number) {
+  const PlannedShowing& planned = plan.frames[static_cast<std::size_t>(number - 1)];
+  FrameOfPlan frame{read_painting(folder / marks_name(number)), {}};
+  Presentation& presentation = frame.showing.presentation;
+  presentation = {.views = planned.views, .placement = planned.placement, .device = planned.device};
+  if (planned.quilt) presentation.composition = *planned.quilt;
+  if (planned.screen) presentation.composition = *planned.screen;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(planned.backgrounds); ++i)
+    frame.showing.backgrounds.push_back(read_image(folder / background_name(number, i)));
+  return frame;
+}
+
+}  // namespace wheatstone
