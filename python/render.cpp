@@ -30,20 +30,14 @@ void fork_between_files() {
   ::pthread_atfork([] { reading.lock(); }, [] { reading.unlock(); }, [] { reading.unlock(); });
 }
 
-bool is_same_choice(const CloudChoice& a, const CloudChoice& b) {
-  return a.type == b.type && a.position == b.position && a.density == b.density && a.temperature == b.temperature &&
-         a.smoothing_length == b.smoothing_length && a.mass == b.mass && a.quantity == b.quantity &&
-         a.origin == b.origin;
-}
-
 /// The particles as the options choose them: of a file they are read again where these choose others.
 Particles chosen(const Particles& particles, const RenderParticlesOptions& options, const Progress& progress) {
   CloudChoice choice = choice_of(options);
   if (particles->is_file)
-    return is_same_choice(choice, particles->choice) ? particles : read_particles_of(particles->name, choice, progress);
+    return choice == particles->choice ? particles : read_particles_of(particles->name, choice, progress);
   if (choice.quantity == "quantity" && !particles->cloud.quantity.empty()) choice.quantity.clear();
   choice.origin.reset();
-  if (!is_same_choice(choice, {}))
+  if (choice != CloudChoice())
     throw Error(ErrorKind::wrong_usage,
                 "type, position and names of columns choose from a file; these particles are arrays, whose columns are "
                 "density, temperature, smoothing_length, mass and quantity");

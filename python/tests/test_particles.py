@@ -10,8 +10,8 @@ import unittest
 
 import numpy as np
 import wheatstone
+from in_folder import PROGRAM, InFolder
 
-PROGRAM = os.environ["WHEATSTONE"]
 POSITIONS = np.random.default_rng(3).normal(size=(500, 3))
 
 
@@ -179,25 +179,16 @@ class InPlace(unittest.TestCase):
         self.assertTrue(np.shares_memory(gas.mass, gas.mass))
 
 
-class FromTheCommandLine(unittest.TestCase):
+class FromTheCommandLine(InFolder):
     """render() takes what the command line takes."""
 
     @classmethod
     def setUpClass(cls):
-        cls._folder = tempfile.TemporaryDirectory()
-        cls.folder = pathlib.Path(cls._folder.name)
+        super().setUpClass()
         cls.run_program("synth", "universe", "--particles", "2000", "-o", "u.hdf5")
         cls.run_program("synth", "universe", "--particles", "500", "--times", "0.4,0.6,0.8", "-o", "s_%03d.hdf5")
         rows = "\n".join(f"{x:.4f} {y:.4f} {z:.4f} {1 + i % 3} {i % 50}" for i, (x, y, z) in enumerate(POSITIONS))
         (cls.folder / "gas.txt").write_text("# x [kpc] y [kpc] z [kpc] mass [1e10*Msun] age [Gyr]\n" + rows + "\n")
-
-    @classmethod
-    def tearDownClass(cls):
-        cls._folder.cleanup()
-
-    @classmethod
-    def run_program(cls, *words):
-        subprocess.run([PROGRAM, *words, "--quiet"], check=True, cwd=cls.folder, stdout=subprocess.DEVNULL)
 
     def test_options_give_the_same_bytes(self):
         for options, words in [

@@ -7,35 +7,25 @@ import re
 import signal
 import subprocess
 import sys
-import tempfile
 import threading
 import time
 import unittest
 
 import numpy as np
 import wheatstone
+from in_folder import InFolder
 from wheatstone import _wheatstone
 
-PROGRAM = os.environ["WHEATSTONE"]
 SOURCES = pathlib.Path(__file__).parents[2]
 
 
-class Package(unittest.TestCase):
+class Package(InFolder):
     @classmethod
     def setUpClass(cls):
-        cls.kept = tempfile.TemporaryDirectory()
-        cls.folder = pathlib.Path(cls.kept.name)
+        super().setUpClass()
         cls.run_program("synth", "still", "--size", "240x180", "-o", "still")
         cls.left = wheatstone.load(cls.folder / "still/left.png")
         cls.right = wheatstone.load(cls.folder / "still/right.png")
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.kept.cleanup()
-
-    @classmethod
-    def run_program(cls, *words):
-        subprocess.run([PROGRAM, *words, "--quiet"], check=True, cwd=cls.folder, stdout=subprocess.DEVNULL)
 
     @classmethod
     def painted(cls):

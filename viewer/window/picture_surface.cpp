@@ -18,6 +18,13 @@
 #include "wheatstone/error.h"
 
 namespace wheatstone::viewer {
+
+QImage qimage_of(const Image<Rgb8>& picture) {
+  return QImage(reinterpret_cast<const uchar*>(picture.pixels().data()), picture.width(), picture.height(),
+                qsizetype{3} * picture.width(), QImage::Format_RGB888)
+      .copy();
+}
+
 namespace {
 
 class PaintedSurface final : public QWidget, public PictureSurface {
@@ -25,10 +32,7 @@ class PaintedSurface final : public QWidget, public PictureSurface {
   PaintedSurface() { setAttribute(Qt::WA_OpaquePaintEvent); }
   QWidget* widget() override { return this; }
   void show(const Frame& frame) override {
-    const Image<Rgb8>& picture = frame.picture;
-    image_ = QImage(reinterpret_cast<const uchar*>(picture.pixels().data()), picture.width(), picture.height(),
-                    qsizetype{3} * picture.width(), QImage::Format_RGB888)
-                 .copy();
+    image_ = qimage_of(frame.picture);
     update();
   }
 

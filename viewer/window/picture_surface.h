@@ -15,6 +15,9 @@ class QOpenGLShaderProgram;
 
 namespace wheatstone::viewer {
 
+/// A picture for widgets, copied.
+QImage qimage_of(const Image<Rgb8>& picture);
+
 /// Shows frames, one pixel of a frame on one of the screen.
 class PictureSurface {
  public:

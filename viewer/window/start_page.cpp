@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "icons.h"
+#include "picture_surface.h"
 #include "viewer/devices.h"
 #include "viewer/thumbnail.h"
 
@@ -35,12 +36,6 @@ QIcon blank_thumbnail(const QPalette& palette) {
 }
 
 }  // namespace
-
-QImage qimage_of(const Image<Rgb8>& picture) {
-  return QImage(reinterpret_cast<const uchar*>(picture.pixels().data()), picture.width(), picture.height(),
-                qsizetype{3} * picture.width(), QImage::Format_RGB888)
-      .copy();
-}
 
 StartPage::StartPage(DoCommand do_command, std::function<void()> ask_to_open)
     : do_command_(std::move(do_command)), ask_to_open_(std::move(ask_to_open)) {

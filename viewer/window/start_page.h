@@ -36,7 +36,4 @@ class StartPage final : public QWidget {
   NewestJob thumbnails_;  ///< last: it ends first
 };
 
-/// A picture for widgets, copied.
-QImage qimage_of(const Image<Rgb8>& picture);
-
 }  // namespace wheatstone::viewer

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "start_page.h"
+#include "picture_surface.h"
 #include "wheatstone/marks/style.h"
 
 namespace wheatstone::viewer {

@@ -30,6 +30,7 @@ struct CloudChoice {
   std::optional<std::array<double, 3>> origin;
   /// Also read what tells how particles move from one snapshot to the next: IDs and velocities (Cloud::id, rate_x).
   bool motion = false;
+  friend bool operator==(const CloudChoice&, const CloudChoice&) = default;
 };
 
 /// A file of particles, opened, its header checked against its length. Reading goes forward only, chunk by chunk.
