@@ -114,17 +114,21 @@ Image<std::uint8_t> retouched_detail(const Photograph& photograph, const Style& 
 }  // namespace
 
 void paint_in_steps(const std::shared_ptr<const Photograph>& photograph, const Style& style,
-                    std::span<const Touch> touches, const Progress& progress,
+                    std::span<const Touch> touches, StrokeFits& fits, const Progress& progress,
                     const std::function<void(PaintedContent)>& deliver) {
   const std::shared_ptr<const Photograph> known = made_ready(photograph, style, touches, progress);
   if (!photograph->geometry) deliver({nullptr, known});
   const Image<Rgb8>& left = known->pictures.left;
   const Image<std::uint8_t> detail = retouched_detail(*known, style, touches);
-  if (std::max(left.width(), left.height()) > 2 * coarse_px)
+  constexpr double very_large_px = 1.6e7;
+  const bool keeps_fits = !touches.empty() && static_cast<double>(left.width()) * left.height() <= very_large_px;
+  if (!keeps_fits) fits.clear();
+  if (fits.empty() && std::max(left.width(), left.height()) > 2 * coarse_px)
     deliver({std::make_shared<const Painting>(coarse_painting(*known, style, detail, progress)), known});
-  deliver({std::make_shared<const Painting>(
-               plan_painting(known->pictures, *known->geometry, style, progress, widest_views, detail)),
-           known});
+  Painting painting = keeps_fits
+                          ? plan_again(known->pictures, *known->geometry, style, fits, progress, widest_views, detail)
+                          : plan_painting(known->pictures, *known->geometry, style, progress, widest_views, detail);
+  deliver({std::make_shared<const Painting>(std::move(painting)), known});
 }
 
 std::string paint_whole_film(const WholeFilm& film, const Progress& progress) {

@@ -12,16 +12,18 @@
 #include "wheatstone/marks/style.h"
 #include "wheatstone/progress.h"
 #include "wheatstone/stereo/retouch.h"
+#include "wheatstone/strokes/strokes_in_time.h"
 #include "wheatstone/video/film_files.h"
 
 namespace wheatstone::viewer {
 
 /// Paints a photograph, coarse at once and then fine: `deliver` gets the photograph with its geometry, where that is
 /// not known yet, then a painting of a small copy, enlarged, then the painting as `wheatstone paint` makes it. The
-/// touches are of its geometry as it was found, and of its detail. Throws as paint_photograph does; what `progress`
-/// throws ends it.
+/// touches are of its geometry as it was found, and of its detail. `fits` are used and kept for a photograph that is
+/// being touched, unless it is very large; once there are some, the coarse painting is left out. Throws as
+/// paint_photograph does; what `progress` throws ends it.
 void paint_in_steps(const std::shared_ptr<const Photograph>& photograph, const Style& style,
-                    std::span<const Touch> touches, const Progress& progress,
+                    std::span<const Touch> touches, StrokeFits& fits, const Progress& progress,
                     const std::function<void(PaintedContent)>& deliver);
 
 /// A painting of a small copy of a photograph whose geometry is known, in pixels of the copy, which has at most so many

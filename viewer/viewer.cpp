@@ -185,11 +185,12 @@ void Viewer::paint() {
   making_.start([this, job, photograph = content->photograph, style = session_.state.style,
                  touches = session_.film ? std::vector<Touch>() : session_.state.touches](const std::stop_token& stop) {
     try {
-      paint_in_steps(photograph, style, touches, progress_of(job, stop), [this, job](const PaintedContent& painted) {
-        mailbox_.post([this, job, painted, depth = depth_of(painted)] {
-          if (job == job_) take_painted(painted, depth);
-        });
-      });
+      paint_in_steps(photograph, style, touches, fits_, progress_of(job, stop),
+                     [this, job](const PaintedContent& painted) {
+                       mailbox_.post([this, job, painted, depth = depth_of(painted)] {
+                         if (job == job_) take_painted(painted, depth);
+                       });
+                     });
       mailbox_.post([this, job] {
         if (job == job_) session_.opening.reset();
       });

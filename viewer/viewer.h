@@ -164,7 +164,8 @@ class Viewer {
   double shown_at_s_ = 0;              ///< when a slide began to be shown
   std::optional<double> failed_time_;  ///< of a series, at which it could not be read
 
-  Stage stage_;  ///< of the drawing thread
+  StrokeFits fits_;  ///< of the thread that paints
+  Stage stage_;      ///< of the drawing thread
   int files_to_save_ = 0;
   std::optional<Error> failed_save_;
 

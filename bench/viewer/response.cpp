@@ -92,7 +92,8 @@ void measure_style(const SyntheticStill& still) {
     delivered.clear();
     double passed = 0;
     auto watch = std::make_unique<Stopwatch>(passed);
-    paint_in_steps(photograph, {}, {}, {}, [&](const PaintedContent&) {
+    StrokeFits nothing_kept;
+    paint_in_steps(photograph, {}, {}, nothing_kept, {}, [&](const PaintedContent&) {
       watch.reset();
       delivered.push_back(passed);
       watch = std::make_unique<Stopwatch>(passed);

@@ -1,7 +1,9 @@
 #include "wheatstone/image/orientation_field.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
@@ -102,6 +104,13 @@ OrientationField::OrientationField(ImageView<const std::uint8_t> luminance, floa
   cv::Mat planes[] = {as_mat(xx_), as_mat(xy_), as_mat(yy_)};
   const int from_to[] = {0, 0, 1, 1, 2, 2};
   cv::mixChannels(&field, 1, planes, 3, from_to, 3);
+}
+
+void OrientationField::round() {
+  constexpr std::uint32_t left_out = (1u << 16) - 1;  // of the mantissa's 23 bits
+  for (Image<float>* const plane : {&xx_, &xy_, &yy_})
+    for (float& value : plane->pixels())
+      value = std::bit_cast<float>((std::bit_cast<std::uint32_t>(value) + left_out / 2) & ~left_out);
 }
 
 Direction OrientationField::along(float x, float y, float gradient_x, float gradient_y) const {

@@ -11,6 +11,7 @@ namespace wheatstone {
 struct PlanePoint {
   float x = 0;
   float y = 0;
+  friend bool operator==(const PlanePoint&, const PlanePoint&) = default;
 };
 
 /// A point of the scene: where the central view sees it, in pixels, and its disparity. The view at v sees it at

@@ -99,9 +99,11 @@ void check_reads_detail(const Style& style) {
                             style.name));
 }
 
-Painting plan_painting(const StereoPairView& photographs, const StereoGeometryView& geometry, const Style& style,
-                       const Progress& progress, ViewRange wanted, ImageView<const std::uint8_t> detail,
-                       std::span<const View> known) {
+namespace {
+
+Painting plan_still(const StereoPairView& photographs, const StereoGeometryView& geometry, const Style& style,
+                    StrokeFits* fits, const Progress& progress, ViewRange wanted, ImageView<const std::uint8_t> detail,
+                    std::span<const View> known) {
   check_style(style);
   check_fits(photographs, geometry);
   if (!detail.empty()) check_reads_detail(style);
@@ -111,7 +113,21 @@ Painting plan_painting(const StereoPairView& photographs, const StereoGeometryVi
       known.empty() ? make_still_scene(photographs, geometry, wanted) : make_known_scene(photographs, geometry, known);
   if (!detail.empty()) scene.front().detail = stretched(detail, photographs.left.width(), photographs.left.height());
   PaintingMemory nothing_before;
-  return plan_frame({.views = scene}, style, {.goes_on = false}, nothing_before, progress).painting;
+  return plan_frame({.views = scene}, style, {.goes_on = false}, nothing_before, progress, fits).painting;
+}
+
+}  // namespace
+
+Painting plan_painting(const StereoPairView& photographs, const StereoGeometryView& geometry, const Style& style,
+                       const Progress& progress, ViewRange wanted, ImageView<const std::uint8_t> detail,
+                       std::span<const View> known) {
+  return plan_still(photographs, geometry, style, nullptr, progress, wanted, detail, known);
+}
+
+Painting plan_again(const StereoPairView& photographs, const StereoGeometryView& geometry, const Style& style,
+                    StrokeFits& fits, const Progress& progress, ViewRange wanted, ImageView<const std::uint8_t> detail,
+                    std::span<const View> known) {
+  return plan_still(photographs, geometry, style, &fits, progress, wanted, detail, known);
 }
 
 PaintedPair paint(const StereoPairView& photographs, const StereoGeometryView& geometry, const Style& style,

@@ -9,6 +9,7 @@
 #include "wheatstone/progress.h"
 #include "wheatstone/stereo/stereo_pair.h"
 #include "wheatstone/stereo/view.h"
+#include "wheatstone/strokes/strokes_in_time.h"
 
 namespace wheatstone {
 
@@ -50,6 +51,14 @@ inline constexpr ViewRange widest_views{ViewPosition(-2.5f), ViewPosition(2.5f)}
 Painting plan_painting(const StereoPairView& photographs, const StereoGeometryView& geometry, const Style& style,
                        const Progress& progress = {}, ViewRange wanted = widest_views,
                        ImageView<const std::uint8_t> detail = {}, std::span<const View> known = {});
+
+/// As plan_painting, with the same result, in less time where only parts of the disparities or of the detail map differ
+/// from the last call with these `fits`, which are empty at first: fitted strokes are planned again where something
+/// differs that they depend on. (All other marks are planned everywhere; they are planned fast.) The fits take about
+/// 100 bytes a pixel. They stay good if this throws.
+Painting plan_again(const StereoPairView& photographs, const StereoGeometryView& geometry, const Style& style,
+                    StrokeFits& fits, const Progress& progress = {}, ViewRange wanted = widest_views,
+                    ImageView<const std::uint8_t> detail = {}, std::span<const View> known = {});
 
 /// Whether a detail map steers a style: its strokes are fitted and propagated.
 bool reads_detail(const Style& style);

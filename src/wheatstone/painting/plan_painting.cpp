@@ -76,14 +76,14 @@ Surfaces surfaces_of(std::span<const View> views, const Style& style) {
 }
 
 PlannedFrame plan_from_views(const FilmFrame& frame, const Style& style, const CarryOptions& options,
-                             PaintingMemory& memory, const Progress& progress) {
+                             PaintingMemory& memory, const Progress& progress, StrokeFits* fits) {
   report(progress, "painting", 0);
   PlannedFrame planned;
   Painting& painting = planned.painting;
   switch (style.marks) {
     case Marks::strokes:
     case Marks::fitted_strokes: {
-      CarriedPainting carried = plan_strokes(frame, style, options, memory.strokes, progress);
+      CarriedPainting carried = plan_strokes(frame, style, options, memory.strokes, progress, fits);
       painting.marks = std::move(carried.painting);
       planned.counts = carried.counts;
       break;
@@ -106,13 +106,14 @@ PlannedFrame plan_from_views(const FilmFrame& frame, const Style& style, const C
 }  // namespace
 
 PlannedFrame plan_without_repair(const FilmFrame& frame, const Style& style, const CarryOptions& options,
-                                 PaintingMemory& memory, const Progress& progress) {
+                                 PaintingMemory& memory, const Progress& progress, StrokeFits* fits) {
   check_style(style);
   check_fits(frame.views);
-  if (is_of_strokes(style) && frame.flow == nullptr) return plan_from_views(frame, style, options, memory, progress);
+  if (is_of_strokes(style) && frame.flow == nullptr)
+    return plan_from_views(frame, style, options, memory, progress, fits);
   // Only new strokes are planned from smaller pictures.
   const std::vector<View> scene = at_reference_scale(frame.views);
-  return plan_from_views({scene, frame.flow}, style, options, memory, progress);
+  return plan_from_views({scene, frame.flow}, style, options, memory, progress, fits);
 }
 
 namespace {
@@ -144,14 +145,14 @@ PlannedFrame plan_within_budget(const FilmFrame& frame, Style style, const Carry
 }  // namespace
 
 PlannedFrame plan_frame(const FilmFrame& frame, const Style& style, const CarryOptions& options, PaintingMemory& memory,
-                        const Progress& progress) {
+                        const Progress& progress, StrokeFits* fits) {
   check_style(style);
   if (style.strokes > 0) {
     if (options.goes_on)
       throw Error(ErrorKind::wrong_usage, "style: strokes is the number of a still's strokes, expected 0 for a film");
     return plan_within_budget(frame, style, options, memory, progress);
   }
-  PlannedFrame planned = plan_without_repair(frame, style, options, memory, progress);
+  PlannedFrame planned = plan_without_repair(frame, style, options, memory, progress, fits);
   repair(frame.views, style, planned.painting);
   return planned;
 }

@@ -26,8 +26,8 @@ struct PlannedFrame {
 /// first, serve all views; parts that only another view sees are planned in that view. Marks may be drawn from
 /// anywhere, because the painting's surfaces, which are the views' disparities, hide them. Throws Error{wrong_usage}
 /// for a style that cannot be painted with, Error{bad_input} where the views do not fit together. If `progress` throws,
-/// planning ends, and `memory` is of no further use.
+/// planning ends, and `memory` is of no further use. `fits`: as plan_strokes'.
 PlannedFrame plan_frame(const FilmFrame& frame, const Style& style, const CarryOptions& options, PaintingMemory& memory,
-                        const Progress& progress = {});
+                        const Progress& progress = {}, StrokeFits* fits = nullptr);
 
 }  // namespace wheatstone

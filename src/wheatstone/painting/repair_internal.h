@@ -10,7 +10,7 @@ namespace wheatstone {
 
 /// As plan_frame, but without the marks of `repair`.
 PlannedFrame plan_without_repair(const FilmFrame& frame, const Style& style, const CarryOptions& options,
-                                 PaintingMemory& memory, const Progress& progress = {});
+                                 PaintingMemory& memory, const Progress& progress = {}, StrokeFits* fits = nullptr);
 
 /// Adds small marks where a photographed view would show a colour that its photograph has nowhere near
 /// (marks/residual.h). Paintings of regions and of lines are drawn and compared: small things may have been joined to

@@ -2,19 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "wheatstone/random.h"
-#include "wheatstone/strokes/fit_stroke_internal.h"
 #include "wheatstone/strokes/jitter_internal.h"
 #include "wheatstone/strokes/layer_order.h"
+#include "wheatstone/strokes/refit_internal.h"
 #include "wheatstone/strokes/seed_internal.h"
 
 namespace wheatstone {
 namespace {
-
-constexpr int passes = 2;  ///< over the cells, the second shifted by half a cell
 
 float cell_px(const LayerPlan& plan) { return std::max(1.3f * plan.radius_px, 1.5f); }
 
@@ -28,6 +28,7 @@ int block_px(const LayerPlan& plan) {
 struct Cell {
   int left, top, right, bottom;
   std::uint64_t random;
+  std::size_t index;  ///< in its block and pass
 };
 
 /// Where a stroke is begun: the worst pixel of a cell. Bare pixels are equally bad: chance chooses among them.
@@ -66,32 +67,23 @@ int place_of_half(const LayerPlan& plan, int half) {
   return static_cast<int>(static_cast<float>(half) * cell_px(plan) / 2);
 }
 
-/// Upper bounds of the errors of a row's pixels from `left` on: their errors with the largest possible weights.
-void most_errors(const LayerPlan& plan, int left, int y, std::span<float> errors) {
+/// The errors of a row's pixels from `left` on, as FitTile has them.
+void errors_of_row(const LayerPlan& plan, int left, int y, std::span<float> errors) {
   const auto row = [&](const auto& plane) { return plane.row(y).subspan(static_cast<std::size_t>(left)); };
   const Canvas& canvas = plan.canvas;
   const auto red = row(plan.reference.red), green = row(plan.reference.green), blue = row(plan.reference.blue);
   const auto painted_red = row(canvas.red), painted_green = row(canvas.green), painted_blue = row(canvas.blue);
-  const auto covered = row(canvas.coverage);
+  const auto covered = row(canvas.coverage), weights = row(plan.weights);
   for (std::size_t i = 0; i < errors.size(); ++i) {
     // The planes are linear in sRGB.
     const float difference =
         squared(FitColour::of(red[i] - painted_red[i], green[i] - painted_green[i], blue[i] - painted_blue[i]));
-    errors[i] = covered[i] < 0.5f ? squared_error_of_bare : difference;
+    errors[i] = covered[i] < 0.5f ? squared_error_of_bare : weights[i] * difference;
   }
-  if (weighs_outlines(plan)) {
-    const auto outline = row(plan.depth_edges);
-    for (std::size_t i = 0; i < errors.size(); ++i)
-      if (outline[i] != 0) errors[i] *= weight_of_outline;
-  }
-  if (plan.view.detail.empty()) return;
-  const auto detail = row(plan.view.detail);
-  const std::array<float, 256>& of_detail = detail_weights();
-  for (std::size_t i = 0; i < errors.size(); ++i) errors[i] *= std::max(of_detail[detail[i]], 1.f);
 }
 
-/// Whether a stroke may gain in some cell of a block if each pixel has the largest possible weight. It saves a closer
-/// look at most blocks of the finer layers of a large picture.
+/// Whether a stroke may gain in some cell of a block. It saves a closer look at most blocks of the finer layers of a
+/// large picture.
 bool may_gain_in_block(const LayerPlan& plan, int left, int top, int size) {
   const int reach = size + 2 * static_cast<int>(cell_px(plan));
   const int right = std::min(left + reach, plan.canvas.width), bottom = std::min(top + reach, plan.canvas.height);
@@ -107,7 +99,7 @@ bool may_gain_in_block(const LayerPlan& plan, int left, int top, int size) {
   for (int row = first_row; place_of_half(plan, row) < bottom; ++row) {
     std::ranges::fill(sums, 0.f);
     for (int y = place_of_half(plan, row); y < std::min(place_of_half(plan, row + 1), bottom); ++y) {
-      most_errors(plan, x0, y, errors);
+      errors_of_row(plan, x0, y, errors);
       for (std::size_t c = 0; c + 1 < columns.size(); ++c)
         for (std::size_t x = columns[c]; x < columns[c + 1]; ++x) sums[c] += errors[x];
     }
@@ -118,38 +110,35 @@ bool may_gain_in_block(const LayerPlan& plan, int left, int top, int size) {
   return false;
 }
 
-/// The cells of one pass that begin in a block and in which a stroke may gain, in random order, so that no rows of
-/// strokes show.
+/// All cells of one pass that begin in a block, row by row.
 std::vector<Cell> cells_of_block(const LayerPlan& plan, const FitTile& tile, int left, int top, int size, int pass) {
   const float cell = cell_px(plan), shift = static_cast<float>(pass) * cell / 2;
   const auto first = [&](int place) { return static_cast<int>(std::ceil((static_cast<float>(place) + shift) / cell)); };
   const auto place = [&](int number) { return place_of_half(plan, 2 * number - pass); };
   std::vector<Cell> cells;
   const auto number_from = [&](int begin) { return begin == 0 ? 0 : first(begin); };
-  for (int row = number_from(top); row < first(top + size); ++row) {
-    for (int column = number_from(left); column < first(left + size); ++column) {
-      const Cell in_tile{
-          std::max(place(column) - tile.left, 0), std::max(place(row) - tile.top, 0),
-          std::min(place(column + 1) - tile.left, tile.width), std::min(place(row + 1) - tile.top, tile.height),
-          hash_keys({plan.style.seed, static_cast<std::uint64_t>(plan.layer), static_cast<std::uint64_t>(pass),
-                     static_cast<std::uint64_t>(column), static_cast<std::uint64_t>(row)})};
-      if (may_gain(plan, find_anchor(plan, tile, in_tile).sum)) cells.push_back(in_tile);
-    }
-  }
-  std::ranges::sort(cells, {}, &Cell::random);
+  for (int row = number_from(top); row < first(top + size); ++row)
+    for (int column = number_from(left); column < first(left + size); ++column)
+      cells.push_back(
+          {std::max(place(column) - tile.left, 0), std::max(place(row) - tile.top, 0),
+           std::min(place(column + 1) - tile.left, tile.width), std::min(place(row + 1) - tile.top, tile.height),
+           hash_keys({plan.style.seed, static_cast<std::uint64_t>(plan.layer), static_cast<std::uint64_t>(pass),
+                      static_cast<std::uint64_t>(column), static_cast<std::uint64_t>(row)}),
+           cells.size()});
   return cells;
 }
 
 std::uint8_t level_of(float value) { return static_cast<std::uint8_t>(std::clamp(value, 0.f, 255.f) + 0.5f); }
 
-void add_stroke(const FittedStroke& fitted, const LayerPlan& plan, const FitTile& tile, std::uint64_t random,
-                Layer& layer) {
+/// `left`, `top`: the first pixel of the tile in which the stroke was fitted.
+void add_stroke(const PaintedStroke& painted, const LayerPlan& plan, int left, int top, Layer& layer) {
+  const FittedStroke& fitted = painted.stroke;
   Stroke stroke;
   stroke.first_point = static_cast<std::uint32_t>(layer.points.size());
   stroke.point_count = static_cast<std::uint32_t>(fitted.points.size());
   for (const PlanePoint& point : fitted.points)
-    layer.points.push_back({static_cast<float>(tile.left) + point.x, static_cast<float>(tile.top) + point.y,
-                            tile.disparity[tile.at(static_cast<int>(point.x), static_cast<int>(point.y))]});
+    layer.points.push_back({static_cast<float>(left) + point.x, static_cast<float>(top) + point.y,
+                            plan.view.disparity(left + static_cast<int>(point.x), top + static_cast<int>(point.y))});
   const std::span points = std::span(layer.points).subspan(stroke.first_point);
   settle_disparities(plan, fitted.radius_px, points);
   stroke.radius_px = fitted.radius_px;
@@ -158,11 +147,12 @@ void add_stroke(const FittedStroke& fitted, const LayerPlan& plan, const FitTile
   const Rgb8 first{level_of(begin[0]), level_of(begin[1]), level_of(begin[2])};
   const Rgb8 last{level_of(end[0]), level_of(end[1]), level_of(end[2])};
   const auto change = [](int from, int to) { return static_cast<std::int16_t>(to - from); };
-  stroke.colour = jittered(first, plan.style.jitter, random);
+  stroke.colour = jittered(first, plan.style.jitter, painted.random);
   stroke.change = {change(first.r, last.r), change(first.g, last.g), change(first.b, last.b)};
   stroke.disparity = points[points.size() / 2].disparity;
   stroke.reference_view = plan.view.position;
   stroke.views = all_views;
+  stroke.number = painted.number;
   layer.strokes.push_back(stroke);
 }
 
@@ -188,54 +178,201 @@ bool has_seeds(const LayerPlan& plan, int left, int top, int size) {
   return false;
 }
 
-Layer plan_block(const LayerPlan& plan, int left, int top, int size, PaintedPicture& canvas) {
-  Layer layer{plan.radius_px, {}, {}};
-  const int margin = static_cast<int>(std::ceil(fitted_reach_px(plan.radius_px)));
-  FitTile tile(plan, canvas, left - margin, top - margin, left + size + margin, top + size + margin);
-  std::vector<std::uint8_t> tried_in_vain(tile.wanted.size());  // by pixel
-  for (int pass = 0; pass < passes; ++pass) {
-    for (const Cell& cell : cells_of_block(plan, tile, left, top, size, pass)) {
-      const Anchor anchor = find_anchor(plan, tile, cell);
-      if (anchor.x < 0 || !may_gain(plan, anchor.sum)) continue;
-      std::uint8_t& in_vain = tried_in_vain[tile.at(anchor.x, anchor.y)];
-      if (in_vain != 0) continue;
-      const auto fitted = fit_stroke(tile, plan, anchor.x, anchor.y, cell.random);
-      in_vain = !fitted;
-      if (!fitted) continue;
-      paint_stroke(*fitted, plan, tile, canvas);
-      add_stroke(*fitted, plan, tile, cell.random, layer);
+/// A block of cells, and the part of the picture that its strokes may touch.
+struct Block {
+  int left, top, size, wave;
+  PixelArea area;
+  std::size_t index;  ///< in the order in which blocks are planned
+};
+
+/// Numbers grow in the order in which strokes are painted. A stroke's does not depend on which others there are.
+std::uint32_t number_of(const Block& block, int pass, std::uint64_t random) {
+  constexpr int random_bits = 16;
+  const auto cells = static_cast<std::uint32_t>(fit_passes * static_cast<int>(block.index) + pass);
+  return 1 + (cells << random_bits | static_cast<std::uint32_t>(random >> (64 - random_bits)));
+}
+
+/// Plans the strokes of one block, or takes over those of the last time where nothing about a cell differs.
+class BlockPlan {
+ public:
+  BlockPlan(const LayerPlan& plan, const Block& block, PaintedPicture& canvas, Refit* refit)
+      : plan_(plan),
+        block_(block),
+        canvas_(canvas),
+        refit_(refit),
+        before_(refit == nullptr ? BlockOutcome() : std::exchange(refit->block(block.index), {})) {}
+
+  Layer run() {
+    if (refit_ != nullptr && !before_.cells.front().empty() && !refit_->differs(block_.area)) {
+      now_ = std::move(before_);
+      return end();
+    }
+    if (refit_ != nullptr) refit_->restore(block_.wave, block_.area, canvas_);
+    FitTile tile(plan_, canvas_, block_.area.left, block_.area.top, block_.area.right, block_.area.bottom);
+    tried_in_vain_.resize(tile.wanted.size());
+    for (int pass = 0; pass < fit_passes; ++pass) run_pass(pass, tile);
+    return end();
+  }
+
+  /// Leaves the block without strokes.
+  void drop() {
+    if (before_.strokes.empty()) return;
+    refit_->restore(block_.wave, block_.area, canvas_);
+    for (const PaintedStroke& painted : before_.strokes) mark(painted.stroke);
+  }
+
+ private:
+  void run_pass(int pass, FitTile& tile) {
+    const std::vector<Cell> all = cells_of_block(plan_, tile, block_.left, block_.top, block_.size, pass);
+    std::vector<CellOutcome>& outcomes = now_.cells[static_cast<std::size_t>(pass)];
+    outcomes.resize(all.size());
+    const std::vector<CellOutcome>& known = before_.cells[static_cast<std::size_t>(pass)];
+    const auto outcome_before = [&](const Cell& cell) { return known.empty() ? CellOutcome() : known[cell.index]; };
+    // In random order, so that no rows of strokes show.
+    std::vector<Cell> cells;
+    for (const Cell& cell : all) {
+      if (may_gain(plan_, find_anchor(plan_, tile, cell).sum))
+        cells.push_back(cell);
+      else
+        replace(outcome_before(cell), nullptr);
+    }
+    std::ranges::sort(cells, {}, &Cell::random);
+    for (const Cell& cell : cells) {
+      const CellOutcome before = outcome_before(cell);
+      outcomes[cell.index] =
+          known.empty() || differs_about(cell) ? plan_cell(cell, pass, before, tile) : take_over(before, tile);
     }
   }
-  return layer;
+
+  CellOutcome plan_cell(const Cell& cell, int pass, const CellOutcome& before, FitTile& tile) {
+    const Anchor anchor = find_anchor(plan_, tile, cell);
+    std::optional<FittedStroke> fitted;
+    CellOutcome outcome{CellOutcome::Kind::left_out};
+    if (anchor.x >= 0 && may_gain(plan_, anchor.sum)) {
+      const std::size_t pixel = tile.at(anchor.x, anchor.y);
+      if (tried_in_vain_[pixel] == 0) {
+        fitted = fit_stroke(tile, plan_, anchor.x, anchor.y, cell.random);
+        tried_in_vain_[pixel] = !fitted;
+        outcome = {CellOutcome::Kind::in_vain, static_cast<std::uint32_t>(pixel)};
+      }
+    }
+    replace(before, fitted ? &*fitted : nullptr);
+    if (!fitted) return outcome;
+    return paint({std::move(*fitted), cell.random, number_of(block_, pass, cell.random)}, tile);
+  }
+
+  CellOutcome take_over(const CellOutcome& before, FitTile& tile) {
+    if (before.kind == CellOutcome::Kind::painted) return paint(std::move(before_.strokes[before.place]), tile);
+    if (before.kind == CellOutcome::Kind::in_vain) tried_in_vain_[before.place] = 1;
+    return before;
+  }
+
+  CellOutcome paint(PaintedStroke painted, FitTile& tile) {
+    paint_stroke(painted.stroke, plan_, tile, canvas_);
+    now_.strokes.push_back(std::move(painted));
+    return {CellOutcome::Kind::painted, static_cast<std::uint32_t>(now_.strokes.size() - 1)};
+  }
+
+  /// Whether anything differs that a stroke begun in a cell may depend on.
+  bool differs_about(const Cell& cell) const {
+    const int reach = static_cast<int>(std::ceil(fitted_reach_px(plan_.radius_px)));
+    return refit_->differs(within_area({cell.left - reach, cell.top - reach, cell.right + reach, cell.bottom + reach}));
+  }
+
+  /// Notes what differs when a cell's stroke gives way to another one, or to none.
+  void replace(const CellOutcome& before, const FittedStroke* now) {
+    if (refit_ == nullptr) return;
+    const bool was_painted = before.kind == CellOutcome::Kind::painted;
+    if (was_painted && now != nullptr && before_.strokes[before.place].stroke == *now) return;
+    if (was_painted) mark(before_.strokes[before.place].stroke);
+    if (now != nullptr) mark(*now);
+  }
+
+  void mark(const FittedStroke& stroke) {
+    const int reach = static_cast<int>(std::ceil(BrushProfile(stroke.radius_px).reach_px)) + 1;
+    const auto [left, right] = std::ranges::minmax(stroke.points, {}, &PlanePoint::x);
+    const auto [top, bottom] = std::ranges::minmax(stroke.points, {}, &PlanePoint::y);
+    refit_->mark(within_area({static_cast<int>(left.x) - reach, static_cast<int>(top.y) - reach,
+                              static_cast<int>(right.x) + reach + 1, static_cast<int>(bottom.y) + reach + 1}));
+  }
+
+  /// A part of the tile in pixels of the picture. Other blocks of the wave have all others.
+  PixelArea within_area(const PixelArea& part) const {
+    const auto& [left, top, right, bottom] = block_.area;
+    return {std::max(left + part.left, left), std::max(top + part.top, top), std::min(left + part.right, right),
+            std::min(top + part.bottom, bottom)};
+  }
+
+  Layer end() {
+    Layer layer{plan_.radius_px, {}, {}};
+    for (const PaintedStroke& painted : now_.strokes)
+      add_stroke(painted, plan_, block_.area.left, block_.area.top, layer);
+    if (refit_ != nullptr) refit_->block(block_.index) = std::move(now_);
+    return layer;
+  }
+
+  const LayerPlan& plan_;
+  const Block& block_;
+  PaintedPicture& canvas_;
+  Refit* refit_;         ///< none: nothing is known, and nothing kept
+  BlockOutcome before_;  ///< of the last time
+  BlockOutcome now_;
+  std::vector<std::uint8_t> tried_in_vain_;  ///< by pixel of the tile
+};
+
+/// The picture's blocks in the order in which they are planned.
+std::vector<Block> blocks_of(const LayerPlan& plan) {
+  const int size = block_px(plan), margin = static_cast<int>(std::ceil(fitted_reach_px(plan.radius_px)));
+  const int width = plan.canvas.width, height = plan.canvas.height;
+  std::vector<Block> blocks;
+  for (int top = 0; top < height; top += size)
+    for (int left = 0; left < width; left += size)
+      blocks.push_back({left,
+                        top,
+                        size,
+                        left / size % 2 + 2 * (top / size % 2),
+                        {std::max(left - margin, 0), std::max(top - margin, 0), std::min(left + size + margin, width),
+                         std::min(top + size + margin, height)}});
+  std::ranges::stable_sort(blocks, {}, &Block::wave);
+  for (std::size_t i = 0; i < blocks.size(); ++i) blocks[i].index = i;
+  return blocks;
 }
 
 }  // namespace
 
 Layer fit_layer(const LayerPlan& plan) {
-  const int size = block_px(plan);
-  const int columns = (plan.canvas.width + size - 1) / size, rows = (plan.canvas.height + size - 1) / size;
-  Layer layer{plan.radius_px, {}, {}};
-  std::vector<std::uint8_t> worth(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
-  tbb::parallel_for(0, columns * rows, [&](int i) {
-    const int left = i % columns * size, top = i / columns * size;
+  const std::vector<Block> blocks = blocks_of(plan);
+  std::vector<std::uint8_t> worth(blocks.size());
+  tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t i) {
+    const auto& [left, top, size, wave, area, index] = blocks[i];
     worth[i] = has_seeds(plan, left, top, size) && may_gain_in_block(plan, left, top, size);
   });
-  if (std::ranges::none_of(worth, [](std::uint8_t block) { return block != 0; })) return layer;
+  Layer layer{plan.radius_px, {}, {}};
+  const bool any = std::ranges::any_of(worth, [](std::uint8_t block) { return block != 0; });
+  if (!any && plan.fit == nullptr) return layer;
   PaintedPicture canvas = painted_picture(plan.canvas);
+  LayerFit fit;  // what is left half done by an error is not kept
+  std::optional<Refit> refit;
+  if (plan.fit != nullptr) {
+    fit = std::exchange(*plan.fit, {});
+    refit.emplace(plan, canvas, blocks.size(), fit);
+  }
   // Blocks of one wave do not touch the same pixels. A stroke depends on the picture within four blocks of this layer,
   // and as much for each coarser one.
-  for (int wave = 0; wave < 4; ++wave) {
-    const int first_column = wave % 2, first_row = wave / 2;
-    const int wave_columns = (columns - first_column + 1) / 2, wave_rows = (rows - first_row + 1) / 2;
-    std::vector<Layer> blocks(static_cast<std::size_t>(std::max(wave_columns, 0)) *
-                              static_cast<std::size_t>(std::max(wave_rows, 0)));
+  for (int wave = 0; wave < fit_waves; ++wave) {
+    std::vector<Layer> planned(blocks.size());
     tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t i) {
-      const int column = first_column + 2 * (static_cast<int>(i) % wave_columns);
-      const int row = first_row + 2 * (static_cast<int>(i) / wave_columns);
-      if (worth[row * columns + column] != 0) blocks[i] = plan_block(plan, column * size, row * size, size, canvas);
+      if (blocks[i].wave != wave) return;
+      BlockPlan block(plan, blocks[i], canvas, refit ? &*refit : nullptr);
+      if (worth[i] != 0)
+        planned[i] = block.run();
+      else
+        block.drop();
     });
-    for (const Layer& block : blocks) append_strokes(block, layer);
+    for (const Layer& block : planned) append_strokes(block, layer);
+    if (refit) refit->end_wave(wave, canvas);
   }
+  if (plan.fit != nullptr) *plan.fit = std::move(fit);
   return layer;
 }
 

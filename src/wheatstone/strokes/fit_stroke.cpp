@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include <utility>
 
 #include "wheatstone/random.h"
 
@@ -13,45 +14,6 @@ FitColour operator+(const FitColour& a, const FitColour& b) {
   return {a.luminance + b.luminance, a.red + b.red, a.blue + b.blue};
 }
 FitColour operator*(float f, const FitColour& a) { return {f * a.luminance, f * a.red, f * a.blue}; }
-
-/// The weight of a pixel depends on the local contrast of the wanted luminance relative to its brightness, so that dark
-/// detail counts as well.
-void weigh(FitTile& tile) {
-  constexpr int reach = 3;
-  constexpr std::size_t side = 2 * reach + 1;
-  constexpr float least_weight = 0.25f;
-  const auto width = static_cast<std::size_t>(tile.width);
-  // Sums of a window's rows, by column, with `reach` empty columns on both sides.
-  std::vector<float> values(width + side - 1), squares(width + side - 1);
-  const auto change = [&](int y, float sign) {
-    if (y < 0 || y >= tile.height) return;
-    const std::span row = tile.wanted.luminance().subspan(width * y, width);
-    for (std::size_t x = 0; x < width; ++x) {
-      values[x + reach] += sign * row[x];
-      squares[x + reach] += sign * row[x] * row[x];
-    }
-  };
-  const auto in_window = [](int i, int count) { return std::min(i + reach, count - 1) - std::max(i - reach, 0) + 1; };
-  std::vector<float> share(width);  // of a pixel in the sum of its window's columns
-  for (int x = 0; x < tile.width; ++x) share[x] = 1 / static_cast<float>(in_window(x, tile.width));
-  for (int y = 0; y < reach; ++y) change(y, 1);
-  for (int y = 0; y < tile.height; ++y) {
-    change(y + reach, 1);
-    change(y - reach - 1, -1);
-    const float of_rows = 1 / static_cast<float>(in_window(y, tile.height));
-    float* const weight = tile.weight.data() + width * y;
-    for (std::size_t x = 0; x < width; ++x) {
-      float value = 0, square = 0;
-      for (std::size_t i = x; i < x + side; ++i) {
-        value += values[i];
-        square += squares[i];
-      }
-      const float mean = value * share[x] * of_rows, variance = square * share[x] * of_rows - mean * mean;
-      const float contrast = std::sqrt(std::max(variance, 0.f)) / (2.5f + 0.04f * mean);
-      weight[x] = least_weight + (1 - least_weight) * std::min(contrast, 1.f);
-    }
-  }
-}
 
 /// The path of a stroke, from point to point, and the place of the point where it was begun.
 struct Path {
@@ -327,21 +289,6 @@ FitColour varied(std::uint64_t random) {
 
 }  // namespace
 
-const std::array<float, 256>& detail_weights() {
-  static const auto weights = [] {
-    std::array<float, 256> all{};
-    for (std::size_t i = 0; i < all.size(); ++i)
-      all[i] = std::exp2(steps_of_fineness * ((static_cast<float>(i) - even_detail) / 255));
-    return all;
-  }();
-  return weights;
-}
-
-bool weighs_outlines(const LayerPlan& plan) {
-  constexpr float fine_px = 6;
-  return !plan.depth_edges.empty() && plan.radius_px <= fine_px;
-}
-
 FitTile::FitTile(const LayerPlan& plan, const PaintedPicture& canvas, int left_, int top_, int right, int bottom)
     : left(std::max(left_, 0)),
       top(std::max(top_, 0)),
@@ -357,25 +304,15 @@ FitTile::FitTile(const LayerPlan& plan, const PaintedPicture& canvas, int left_,
     const auto row = [&](const auto& plane) { return plane.row(top + y).subspan(static_cast<std::size_t>(left)); };
     const auto red = row(plan.reference.red), green = row(plan.reference.green), blue = row(plan.reference.blue);
     const auto paint = row(canvas);
-    const auto depth = row(plan.view.disparity);
+    const auto depth = row(plan.view.disparity), weights = row(plan.weights);
     for (int x = 0; x < width; ++x) {
       const std::size_t pixel = at(x, y), i = static_cast<std::size_t>(x);
       wanted.set(pixel, FitColour::of(red[i], green[i], blue[i]));
       painted.set(pixel, paint[i].colour());
       coverage[pixel] = paint[i].coverage();
+      weight[pixel] = weights[i];
       disparity[pixel] = depth[i];
     }
-  }
-  weigh(*this);
-  const std::array<float, 256>& of_detail = detail_weights();
-  for (int y = 0; y < height && !plan.view.detail.empty(); ++y) {
-    const auto row = plan.view.detail.row(top + y).subspan(static_cast<std::size_t>(left));
-    for (int x = 0; x < width; ++x) weight[at(x, y)] *= of_detail[row[static_cast<std::size_t>(x)]];
-  }
-  for (int y = 0; y < height && weighs_outlines(plan); ++y) {
-    const auto row = plan.depth_edges.row(top + y).subspan(static_cast<std::size_t>(left));
-    for (int x = 0; x < width; ++x)
-      if (row[static_cast<std::size_t>(x)] != 0) weight[at(x, y)] *= weight_of_outline;
   }
   for (std::size_t pixel = 0; pixel < error.size(); ++pixel) find_error(pixel);
 }
@@ -471,17 +408,17 @@ std::optional<FittedStroke> fit_stroke(const FitTile& tile, const LayerPlan& pla
   const auto colour_at = [&](std::size_t point) {
     return best.colour.begin + share_of_path(path, point) * best.colour.change;
   };
-  return FittedStroke{control_points(std::span(path.points).subspan(first, end - first)), best.radius_px,
-                      colour_at(first), colour_at(end - 1), best.gain};
+  std::vector<PlanePoint> points = control_points(std::span(path.points).subspan(first, end - first));
+  const PlanePoint middle = points[points.size() / 2];
+  return FittedStroke{std::move(points), best.radius_px, colour_at(first), colour_at(end - 1),
+                      tile.disparity[tile.at(static_cast<int>(middle.x), static_cast<int>(middle.y))]};
 }
 
 void paint_stroke(const FittedStroke& stroke, const LayerPlan& plan, FitTile& tile, PaintedPicture& canvas) {
-  const PlanePoint& middle = stroke.points[stroke.points.size() / 2];
-  const float of_stroke = tile.disparity[tile.at(static_cast<int>(middle.x), static_cast<int>(middle.y))];
   thread_local Footprint footprint;
   const BrushProfile brush(stroke.radius_px);
   footprint.visit(tile, stroke.points, brush.reach_px, 1, [&](std::size_t pixel, float distance, float share) {
-    if (side_of(tile.disparity[pixel], of_stroke, plan.depth_threshold_px) == Side::nearer) return;
+    if (side_of(tile.disparity[pixel], stroke.disparity, plan.depth_threshold_px) == Side::nearer) return;
     const float cover = brush.cover(distance);
     const FitColour colour = stroke.begin + share * (stroke.end - stroke.begin);
     const FitColour before = tile.painted[pixel];

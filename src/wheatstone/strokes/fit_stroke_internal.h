@@ -16,6 +16,7 @@ namespace wheatstone {
 /// about CIE Lab's. They are linear in sRGB, as paint is.
 struct FitColour {
   float luminance = 0, red = 0, blue = 0;
+  friend bool operator==(const FitColour&, const FitColour&) = default;
 
   // Steps of the planes for one level of sRGB: a level of grey is 0.39 of L*.
   static constexpr float luminance_step = 0.39f, red_step = 0.30f, blue_step = 0.24f;
@@ -38,14 +39,10 @@ inline FitColour operator-(const FitColour& a, const FitColour& b) {
   return {a.luminance - b.luminance, a.red - b.red, a.blue - b.blue};
 }
 
-/// The factor on the weight of a difference, by View::detail: the more finely a place is to be painted, the larger.
-/// White has the effect of a fineness that is 0.5 higher.
-const std::array<float, 256>& detail_weights();
-
-/// Factor on the weight of pixels beside depth edges for fine strokes, because broad paint of one surface would show
-/// there as a rim of the other.
-inline constexpr float weight_of_outline = 2;
-bool weighs_outlines(const LayerPlan& plan);
+/// How much a difference counts at each pixel of a layer: by the local contrast of the wanted luminance relative to its
+/// brightness, so that dark detail counts as well, by View::detail, and beside depth edges. A weight depends on the
+/// picture within 3 pixels.
+Image<float> difference_weights(const LayerPlan& plan);
 
 /// The error of a bare pixel, in squared steps.
 inline constexpr float squared_error_of_bare = 900;
@@ -54,6 +51,7 @@ inline constexpr float squared_error_of_bare = 900;
 struct PaintedPixel {
   static constexpr float steps = 256, coverage_steps = 65535;  ///< a level of 0..255 and the coverage are divided into
   std::uint16_t red, green, blue, covered;
+  friend bool operator==(const PaintedPixel&, const PaintedPixel&) = default;
 
   static PaintedPixel of(const FitColour& colour, float coverage) {
     const auto [r, g, b] = colour.rgb();
@@ -93,7 +91,7 @@ struct FitTile {
   FitTile(const LayerPlan& plan, const PaintedPicture& canvas, int left, int top, int right, int bottom);
 
   int left, top, width, height;
-  /// By pixel: what is wanted, what is painted, and how much a difference counts there: 0..1, times detail_weights.
+  /// By pixel: what is wanted, what is painted, and how much a difference counts there.
   FitColours wanted, painted;
   std::vector<float> weight;
   /// The weighted error of each pixel, in squared steps; larger where nothing is painted.
@@ -119,7 +117,8 @@ struct FittedStroke {
   std::vector<PlanePoint> points;  ///< of its spline
   float radius_px = 0;
   FitColour begin, end;  ///< its colour along it
-  float gain = 0;        ///< by how much it lowers the tile's error
+  float disparity = 0;   ///< of the surface in its middle
+  friend bool operator==(const FittedStroke&, const FittedStroke&) = default;
 };
 
 /// How far a stroke of a layer reaches from where it is begun, in pixels.

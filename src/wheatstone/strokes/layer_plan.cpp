@@ -10,6 +10,7 @@
 #include "wheatstone/marks/residual.h"
 #include "wheatstone/random.h"
 #include "wheatstone/strokes/depth_edges_internal.h"
+#include "wheatstone/strokes/fit_stroke_internal.h"
 #include "wheatstone/strokes/handed_back_internal.h"
 #include "wheatstone/strokes/layer_order.h"
 
@@ -97,6 +98,7 @@ LayerPlan make_layer_plan(const ViewOnCanvas& at, const Style& style, int layer)
                          if (at.view.wanted.empty())
                            plan.mixed_colours = behind_depth_edge(at.disparity_steps, radius / 2, threshold);
                        });
+  if (style.marks == Marks::fitted_strokes) plan.weights = difference_weights(plan);
   return plan;
 }
 

@@ -44,6 +44,8 @@ struct ViewOnCanvas {
 /// Distances to depth edges are known up to this much more than the brush's radius.
 inline constexpr float known_edge_distance_px = 3;
 
+struct LayerFit;
+
 /// What one layer of a view is planned from. Everything has the view's size and is in the view's pixels: a planner
 /// knows neither how they are scaled nor which view is the reference. Borrows what it refers to.
 struct LayerPlan {
@@ -57,6 +59,8 @@ struct LayerPlan {
   ImageView<const std::uint8_t> misplaced;  ///< as misplaced_paint: strokes are wanted first there; empty: nowhere
   ViewsBeside beside = {};                  ///< from which its strokes will be seen
   float least_gain = 0;                     ///< as ScaledStyle; less for broad strokes
+  Image<float> weights = {};                ///< of fitted strokes: difference_weights
+  LayerFit* fit = nullptr;                  ///< of fitted strokes: as it was left the last time, and will be
 
   // The depth test; all are empty where the style wants none.
   float depth_threshold_px = 2;            ///< T_depth; without the test, more than any disparity

@@ -21,6 +21,7 @@
 #include "wheatstone/strokes/layer_order.h"
 #include "wheatstone/strokes/misplaced_strokes_internal.h"
 #include "wheatstone/strokes/missing_strokes_internal.h"
+#include "wheatstone/strokes/refit_internal.h"
 #include "wheatstone/strokes/repair.h"
 #include "wheatstone/strokes/seed_internal.h"
 #include "wheatstone/strokes/view_to_plan_internal.h"
@@ -47,6 +48,15 @@ class StrokeNumbers {
   std::uint32_t next_, step_;
 };
 
+/// Numbers dots over fitted strokes so that those beside a dot do not change its number.
+void number_by_pixel(int width, Layer& dots) {
+  constexpr std::uint32_t after_strokes = std::uint32_t{1} << 31;
+  for (Stroke& dot : dots.strokes) {
+    const ControlPoint& at = dots.points[dot.first_point];
+    dot.number = after_strokes + static_cast<std::uint32_t>(static_cast<int>(at.y) * width + static_cast<int>(at.x));
+  }
+}
+
 /// Paints one view of a frame, layer by layer; in smaller pictures where the brush is wide, or only a part is wanted.
 class ViewPainter {
  public:
@@ -65,10 +75,12 @@ class ViewPainter {
         numbers_(numbers) {}
 
   /// Ends the carried strokes of a layer that do not fit the picture any more, and begins those that are missing.
-  void plan(int layer, const CarryOptions& options, TrackedLayer& tracked) {
+  /// `fit`: as LayerPlan's.
+  void plan(int layer, const CarryOptions& options, TrackedLayer& tracked, LayerFit* fit) {
     go_to_size(factor_for(layer));
     if (at_->view.colour.empty()) return;
     LayerPlan plan = make_layer_plan(*at_, style_, layer);
+    plan.fit = fit;
     Image<std::uint8_t> seeds;
     const std::size_t carried = tracked.tracks.size();
     const bool compares = options.goes_on || carried != 0;
@@ -87,7 +99,7 @@ class ViewPainter {
       plan.seeds = seeds;
     }
     Layer begun = plan_layer(plan);
-    numbers_.give(begun);
+    if (options.goes_on || style_.marks != Marks::fitted_strokes) numbers_.give(begun);
     put_in_order(begun, style_);
     add(begun, plan, before, options, tracked);
     if (below && !begun.strokes.empty()) {
@@ -147,7 +159,10 @@ class ViewPainter {
                          .mixed_colours = plan.mixed_colours},
                         style_);
     if (!is_whole()) append_strokes(new_dots_left_out({tracked, carried}), dots);
-    numbers_.give(dots);
+    if (options.goes_on || style_.marks != Marks::fitted_strokes)
+      numbers_.give(dots);
+    else
+      number_by_pixel(view.colour.width(), dots);
     add(std::move(dots), plan, before, options, tracked);
   }
 
@@ -460,10 +475,18 @@ StrokePainting shown_painting(const FilmFrame& frame, const Style& style, const 
   return painting;
 }
 
+void make_room(std::size_t views, std::size_t layers, StrokeFits& fits) {
+  fits.resize(views);
+  for (std::shared_ptr<ViewFit>& fit : fits) {
+    if (fit == nullptr) fit = std::make_shared<ViewFit>();
+    fit->layers.resize(layers);
+  }
+}
+
 }  // namespace
 
 CarriedPainting plan_strokes(const FilmFrame& frame, const Style& style, const CarryOptions& options,
-                             StrokeMemory& memory, const Progress& progress) {
+                             StrokeMemory& memory, const Progress& progress, StrokeFits* fits) {
   check_style(style);
   if (!is_of_strokes(style))
     throw Error(ErrorKind::wrong_usage, "style: its marks are not strokes, expected a style of strokes");
@@ -478,23 +501,30 @@ CarriedPainting plan_strokes(const FilmFrame& frame, const Style& style, const C
     result.counts.before = living_strokes(memory);
     carry(frame, style, options, memory);
   }
+  if (fits != nullptr) make_room(frame.views.size(), layers, *fits);
   std::vector<Layer> repairs(frame.views.size());
   ViewsPlan plan(progress, frame.views.size(), layers);
   plan.run([&](std::size_t view) {
     plan.report_step();
-    StrokeNumbers numbers(memory.last_number, view, frame.views.size());
-    ViewPainter painter(frame.views[view], frame.views.front(), style, scene_begins ? nullptr : &frame.flow->backward,
-                        options.goes_on || view != 0 ? ViewsBeside() : views_beside(frame.views), numbers);
-    for (std::size_t i = 0; i < layers; ++i) {
-      painter.plan(static_cast<int>(i), options, memory.views[view][i]);
-      plan.report_step();
+    const View& own = frame.views[view];
+    ViewFit* const fit = fits != nullptr ? (*fits)[view].get() : nullptr;
+    if (fit != nullptr && fit->is_of(own, frame, style)) {
+      memory.views[view] = fit->planned;
+    } else {
+      StrokeNumbers numbers(memory.last_number, view, frame.views.size());
+      ViewPainter painter(own, frame.views.front(), style, scene_begins ? nullptr : &frame.flow->backward,
+                          options.goes_on || view != 0 ? ViewsBeside() : views_beside(frame.views), numbers);
+      for (std::size_t i = 0; i < layers; ++i) {
+        painter.plan(static_cast<int>(i), options, memory.views[view][i], fit != nullptr ? &fit->layers[i] : nullptr);
+        plan.report_step();
+      }
+      if (fit != nullptr) fit->keep(own, frame, style, memory.views[view]);
+      if (!scene_begins) repairs[view] = painter.repairs();
     }
     for (TrackedLayer& tracked : memory.views[view]) {
-      if (style.jitter == ColourJitter{})
-        drop_misplaced(frame.views[view].position, frame.views, depth_threshold_px, tracked);
+      if (style.jitter == ColourJitter{}) drop_misplaced(own.position, frame.views, depth_threshold_px, tracked);
       drop_needless(frame, view, memory.last_number, depth_threshold_px, tracked);
     }
-    if (!scene_begins) repairs[view] = painter.repairs();
   });
   result.counts.begun = count_new(memory);
   result.counts.carried = living_strokes(memory) - result.counts.begun;

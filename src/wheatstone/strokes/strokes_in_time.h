@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "wheatstone/marks/stroke_painting.h"
@@ -9,6 +10,12 @@
 #include "wheatstone/progress.h"
 
 namespace wheatstone {
+
+struct ViewFit;
+
+/// What fitting the strokes of a still leaves behind, by which they are fitted again where something has changed: by
+/// view. Empty before the first time.
+using StrokeFits = std::vector<std::shared_ptr<ViewFit>>;
 
 /// When a stroke is carried from a frame of a film to the next, and how it comes and goes (Bukenberger et al. 2015,
 /// sec. 3.1, 3.2 and 5.2).
@@ -57,12 +64,12 @@ struct StrokeCounts {
 /// missing or wrong. Strokes that do not fit fade out, and new ones fade in; at the beginning of a scene, all strokes
 /// are new and whole. Strokes keep their numbers, and their order as far as their depths let them. Throws
 /// Error{wrong_usage} for a style that is not of strokes. `progress` is called at least once for each layer of a view.
-/// If it throws, planning ends, and `memory` is of no further use.
+/// If it throws, planning ends, and `memory` is of no further use. `fits`: of a still that is planned again and again.
 struct CarriedPainting {
   StrokePainting painting;
   StrokeCounts counts;
 };
 CarriedPainting plan_strokes(const FilmFrame& frame, const Style& style, const CarryOptions& options,
-                             StrokeMemory& memory, const Progress& progress = {});
+                             StrokeMemory& memory, const Progress& progress = {}, StrokeFits* fits = nullptr);
 
 }  // namespace wheatstone

@@ -1,0 +1,104 @@
+#include <gtest/gtest.h>
+
+#include <array>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "wheatstone/painting/paint.h"
+#include "wheatstone/stereo/geometry_from_disparity.h"
+#include "wheatstone/stereo/retouch.h"
+#include "wheatstone/synthetic/synthetic_still.h"
+
+namespace wheatstone::plan_again_test {
+
+/// A still life, which is touched by hand.
+struct Retouched {
+  explicit Retouched(const std::string& style_name, int width = several_blocks_px)
+      : still(make_synthetic_still({.width = width, .height = width * 3 / 4, .samples_a_side = 1})),
+        style(style_by_name(style_name)) {}
+
+  static constexpr int several_blocks_px = 640;
+
+  /// One touch of some kind, anywhere, across the border as well.
+  void touch() {
+    constexpr std::array kinds{Retouch::shift, Retouch::smooth, Retouch::set, Retouch::detail};
+    const auto within = [this](float first, float end) {
+      return std::uniform_real_distribution<float>(first, end)(random);
+    };
+    const auto width = static_cast<float>(still.pictures.left.width());
+    Touch next{.kind = kinds[random() % kinds.size()],
+               .x = within(-20, width + 20),
+               .y = within(-20, width * 3 / 4 + 20),
+               .radius_px = within(2, width / 9)};
+    next.amount = next.kind == Retouch::detail ? within(-120, 120) : within(-8, 20);
+    if (next.kind == Retouch::smooth) next.amount = within(1, 20);
+    touches.push_back(next);
+  }
+
+  StereoGeometry geometry() const {
+    Image<float> disparity = still.geometry.left_disparity;
+    retouch_disparity(touches, still.pictures.left, disparity);
+    return geometry_from_left(std::move(disparity));
+  }
+
+  Image<std::uint8_t> detail() const {
+    if (!reads_detail(style)) return {};
+    Image<std::uint8_t> map(still.pictures.left.width(), still.pictures.left.height(), even_detail);
+    retouch_detail(touches, map);
+    return map;
+  }
+
+  Painting anew() const { return plan_painting(still.pictures, geometry(), style, {}, widest_views, detail()); }
+  Painting again() { return plan_again(still.pictures, geometry(), style, fits, {}, widest_views, detail()); }
+
+  SyntheticStill still;
+  Style style;
+  std::vector<Touch> touches;
+  StrokeFits fits;
+  std::mt19937 random{7};
+};
+
+TEST(PlanAgain, EqualsPlanningAnewAfterEachOfManyTouches) {
+  Retouched picture("oil");
+  EXPECT_EQ(picture.again(), picture.anew());
+  for (int i = 0; i < 6; ++i) {
+    for (int k = i % 2; k >= 0; --k) picture.touch();
+    ASSERT_EQ(picture.again(), picture.anew()) << "after touch " << picture.touches.size();
+  }
+}
+
+TEST(PlanAgain, GoesBackToTheFirstPaintingWhenTouchesAreUndone) {
+  Retouched picture("oil");
+  const Painting first = picture.again();
+  for (int i = 0; i < 3; ++i) picture.touch();
+  EXPECT_NE(picture.again(), first);
+  picture.touches.clear();
+  EXPECT_EQ(picture.again(), first);
+}
+
+TEST(PlanAgain, EqualsPlanningAnewForOtherPhotographsStylesAndSizes) {
+  Retouched picture("oil");
+  picture.again();
+  picture.style.fineness = 0.7f;
+  EXPECT_EQ(picture.again(), picture.anew()) << "another fineness";
+  picture.still = make_synthetic_still({.width = 640, .height = 480, .seed = 2, .samples_a_side = 1});
+  EXPECT_EQ(picture.again(), picture.anew()) << "another photograph";
+  picture.still = make_synthetic_still({.width = 560, .height = 400, .samples_a_side = 1});
+  EXPECT_EQ(picture.again(), picture.anew()) << "another size";
+}
+
+class PlanAgainInStyle : public testing::TestWithParam<std::string> {};
+
+TEST_P(PlanAgainInStyle, EqualsPlanningAnew) {
+  Retouched picture(GetParam(), 240);
+  picture.again();
+  picture.touch();
+  EXPECT_EQ(picture.again(), picture.anew());
+}
+
+INSTANTIATE_TEST_SUITE_P(EachKindOfMarks, PlanAgainInStyle,
+                         testing::Values("impressionist", "dual", "posterise", "mosaic", "diffusion"),
+                         [](const auto& each) { return each.param; });
+
+}  // namespace wheatstone::plan_again_test

@@ -1,0 +1,113 @@
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "wheatstone/strokes/fit_stroke_internal.h"
+
+namespace wheatstone {
+namespace {
+
+constexpr int window_reach_px = 3;  ///< of the window whose contrast counts
+constexpr int steps_of_level = 10;  ///< luminance is summed in whole steps, so that no order matters
+
+/// Rec. 601.
+std::int32_t luminance_in_steps(int red, int green, int blue) {
+  return (299 * red + 587 * green + 114 * blue + 50) / (1000 / steps_of_level);
+}
+
+/// Sums of luminances, and of their squares, over the rows of a window, by column.
+struct ColumnSums {
+  explicit ColumnSums(int width) : values(static_cast<std::size_t>(width)), squares(static_cast<std::size_t>(width)) {}
+
+  void change(const ReferencePicture& picture, int y, int sign) {
+    if (y < 0 || y >= picture.red.height()) return;
+    const auto red = picture.red.row(y), green = picture.green.row(y), blue = picture.blue.row(y);
+    for (std::size_t x = 0; x < values.size(); ++x) {
+      const std::int32_t luminance = luminance_in_steps(red[x], green[x], blue[x]);
+      values[x] += sign * luminance;
+      squares[x] += sign * luminance * luminance;
+    }
+  }
+
+  std::vector<std::int32_t> values, squares;
+};
+
+int in_window(int i, int count) {
+  return std::min(i + window_reach_px, count - 1) - std::max(i - window_reach_px, 0) + 1;
+}
+
+float weight_of(float mean, float variance) {
+  constexpr float least_weight = 0.25f;
+  const float contrast = std::sqrt(std::max(variance, 0.f)) / (2.5f + 0.04f * mean);
+  return least_weight + (1 - least_weight) * std::min(contrast, 1.f);
+}
+
+void weigh_row(const ColumnSums& sums, int rows_in_window, std::span<float> weights) {
+  constexpr float of_step = FitColour::luminance_step / steps_of_level;
+  const int width = static_cast<int>(weights.size());
+  const auto weigh = [&](int x, int first, int end) {
+    std::int32_t value = 0, square = 0;
+    for (int i = first; i < end; ++i) {
+      value += sums.values[i];
+      square += sums.squares[i];
+    }
+    const float share = 1 / static_cast<float>((end - first) * rows_in_window);
+    const float mean = of_step * share * static_cast<float>(value);
+    weights[x] = weight_of(mean, of_step * of_step * share * static_cast<float>(square) - mean * mean);
+  };
+  const int inner_end = std::max(width - window_reach_px, window_reach_px);
+  for (int x = 0; x < std::min(window_reach_px, width); ++x) weigh(x, 0, std::min(x + window_reach_px + 1, width));
+  for (int x = window_reach_px; x < inner_end; ++x) weigh(x, x - window_reach_px, x + window_reach_px + 1);
+  for (int x = inner_end; x < width; ++x) weigh(x, x - window_reach_px, width);
+}
+
+/// The factor on the weight of a difference, by View::detail: the more finely a place is to be painted, the larger.
+/// White has the effect of a fineness that is 0.5 higher.
+std::array<float, 256> factors_of_detail() {
+  std::array<float, 256> all{};
+  for (std::size_t i = 0; i < all.size(); ++i)
+    all[i] = std::exp2(steps_of_fineness * ((static_cast<float>(i) - even_detail) / 255));
+  return all;
+}
+
+/// Factor on the weight of pixels beside depth edges for fine strokes, because broad paint of one surface would show
+/// there as a rim of the other.
+constexpr float factor_of_outline = 2, fine_radius_px = 6;
+
+void multiply(std::span<float> weights, std::span<const std::uint8_t> values, const std::array<float, 256>& factors) {
+  for (std::size_t x = 0; x < weights.size(); ++x) weights[x] *= factors[values[x]];
+}
+
+}  // namespace
+
+Image<float> difference_weights(const LayerPlan& plan) {
+  const ImageView<const std::uint8_t> detail = plan.view.detail;
+  const bool weighs_outlines = !plan.depth_edges.empty() && plan.radius_px <= fine_radius_px;
+  const std::array<float, 256> of_detail = factors_of_detail();
+  std::array<float, 256> of_outline{1};
+  std::fill(of_outline.begin() + 1, of_outline.end(), factor_of_outline);
+  const int width = plan.reference.red.width(), height = plan.reference.red.height();
+  Image<float> weights(width, height);
+  constexpr int least_rows = 64;  // a part's first window is summed anew
+  tbb::parallel_for(tbb::blocked_range<int>(0, height, least_rows), [&](const tbb::blocked_range<int>& rows) {
+    ColumnSums sums(width);
+    for (int y = rows.begin() - window_reach_px; y < rows.begin() + window_reach_px; ++y)
+      sums.change(plan.reference, y, 1);
+    for (int y = rows.begin(); y < rows.end(); ++y) {
+      sums.change(plan.reference, y + window_reach_px, 1);
+      weigh_row(sums, in_window(y, height), weights.row(y));
+      sums.change(plan.reference, y - window_reach_px, -1);
+      if (!detail.empty()) multiply(weights.row(y), detail.row(y), of_detail);
+      if (weighs_outlines) multiply(weights.row(y), plan.depth_edges.row(y), of_outline);
+    }
+  });
+  return weights;
+}
+
+}  // namespace wheatstone

@@ -1,0 +1,95 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "wheatstone/marks/style.h"
+#include "wheatstone/motion/film_frame.h"
+#include "wheatstone/strokes/fit_stroke_internal.h"
+#include "wheatstone/strokes/strokes_in_time.h"
+
+namespace wheatstone {
+
+inline constexpr int fit_waves = 4;   ///< in which the blocks of a layer are planned
+inline constexpr int fit_passes = 2;  ///< over a block's cells, the second shifted by half a cell
+
+/// Columns [left, right) and rows [top, bottom) of a picture.
+struct PixelArea {
+  int left, top, right, bottom;
+};
+
+/// What became of a cell: no stroke may gain in it as its pass begins; or it was left out later; or a stroke was fitted
+/// from the pixel `anchor` of its tile and gained too little, or was painted.
+struct CellOutcome {
+  enum class Kind : std::uint8_t { no_gain, left_out, in_vain, painted };
+  Kind kind = Kind::no_gain;
+  std::uint32_t place = 0;  ///< in_vain: the tile's pixel; painted: the stroke's number in its block
+};
+
+/// A stroke that was painted.
+struct PaintedStroke {
+  FittedStroke stroke;       ///< in pixels of its block's tile
+  std::uint64_t random = 0;  ///< of its cell
+  std::uint32_t number = 0;  ///< Stroke::number in a still
+};
+
+/// How a block was planned: the outcome of each cell of each pass, row by row, and the strokes in the order in which
+/// they were painted. No cells: it was not worth a look.
+struct BlockOutcome {
+  std::array<std::vector<CellOutcome>, fit_passes> cells;
+  std::vector<PaintedStroke> strokes;
+};
+
+/// What fitting a layer leaves behind, so that less has to be fitted when some of its picture has changed. About 50
+/// bytes a pixel.
+struct LayerFit {
+  // What must not differ.
+  Style style;
+  float radius_px = 0, least_gain = 0, depth_threshold_px = 0;
+  // What may, and is compared.
+  Image<std::uint8_t> red, green, blue, seeds;
+  OrientationField orientation;
+  Image<float> disparity, weights;
+  /// The canvas as each wave began.
+  std::array<PaintedPicture, fit_waves> canvases;
+  std::vector<BlockOutcome> blocks;
+};
+
+/// What planning a view leaves behind.
+struct ViewFit {
+  std::vector<LayerFit> layers;
+  View view;  ///< as it was; owns its images
+  Style style;
+  int reference_width = 0;
+  std::size_t views = 0;  ///< of the scene
+  std::vector<TrackedLayer> planned;
+
+  bool is_of(const View& now, const FilmFrame& frame, const Style& style_now) const;
+  void keep(const View& now, const FilmFrame& frame, const Style& style_now, std::vector<TrackedLayer> planned_now);
+};
+
+/// A layer that is fitted again: which pixels differ from the last time, in what is wanted of them or in what is
+/// painted on them. Blocks of one wave may use it at once.
+class Refit {
+ public:
+  /// Compares with the last time, and takes over what is there now. Everything differs where nothing is known.
+  Refit(const LayerPlan& plan, const PaintedPicture& canvas, std::size_t blocks, LayerFit& before);
+
+  bool differs(const PixelArea& area) const;
+  void mark(const PixelArea& area);
+  /// Paints the pixels that do not differ as they were when the wave began.
+  void restore(int wave, const PixelArea& area, PaintedPicture& canvas) const;
+  BlockOutcome& block(std::size_t index) { return before_.blocks[index]; }
+  void end_wave(int wave, const PaintedPicture& canvas);
+
+ private:
+  void compare_row(const LayerPlan& plan, const PaintedPicture& canvas, int y);
+  void compare_orientation(const OrientationField& now);
+
+  LayerFit& before_;
+  Image<std::uint8_t> differs_;
+};
+
+}  // namespace wheatstone
