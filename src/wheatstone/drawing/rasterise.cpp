@@ -4,7 +4,9 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <span>
 
 #include "wheatstone/drawing/rasterise_internal.h"
 
@@ -23,6 +25,79 @@ std::vector<std::vector<std::uint32_t>> strokes_by_band(const FlatLayer& layer, 
     for (int band = first; band <= last; ++band) bands[band].push_back(i);
   }
   return bands;
+}
+
+FrontToBackAccumulator::FrontToBackAccumulator(int row_count, int canvas_width, bool keeps_cover)
+    : width_(canvas_width),
+      rows_(row_count),
+      blocks_(static_cast<std::size_t>(row_count) * static_cast<std::size_t>((canvas_width + block_px - 1) / block_px)),
+      covers_(keeps_cover ? blocks_.size() : 0),
+      open_columns_(blocks_.size() + Canvas::widest_vector),
+      open_rows_(static_cast<std::size_t>((canvas_width + block_px - 1) / block_px)),
+      touched_rows_(open_rows_.size(), ~std::uint32_t{0} >> (32 - rows_)) {
+  clear();
+}
+
+void FrontToBackAccumulator::clear() {
+  for (int number = 0; number < block_count(); ++number) {
+    // Nothing is to be drawn in the columns after the last one.
+    const int columns = std::min(width_ - number * block_px, block_px);
+    std::uint32_t& touched = touched_rows_[static_cast<std::size_t>(number)];
+    for (; touched != 0; touched &= touched - 1) {
+      const int row = std::countr_zero(touched);
+      Block& cleared = block(row, number);
+      for (float* const plane : {cleared.red, cleared.green, cleared.blue, cleared.light})
+        std::fill_n(plane, block_px, 0.f);
+      std::fill_n(cleared.light, columns, 1.f);
+      open_columns_of(number)[row] = static_cast<std::uint16_t>((std::uint32_t{1} << columns) - 1);
+      if (Cover* const most = cover(row, number)) most->fill(0);
+    }
+    open_rows_[static_cast<std::size_t>(number)] = ~std::uint32_t{0} >> (32 - rows_);
+  }
+}
+
+bool FrontToBackAccumulator::open_only(int row, std::span<const std::uint8_t> mask) {
+  bool any = false;
+  for (int number = 0; number < block_count(); ++number) {
+    const auto columns = mask.subspan(static_cast<std::size_t>(number) * block_px,
+                                      static_cast<std::size_t>(std::min(width_ - number * block_px, block_px)));
+    std::uint8_t any_column = 0;
+    for (const std::uint8_t value : columns) any_column |= value;
+    std::uint32_t open = 0;
+    if (any_column != 0) {
+      float* const through = block(row, number).light;
+      for (std::size_t i = 0; i < columns.size(); ++i) {
+        open |= std::uint32_t{columns[i] != 0} << i;
+        through[i] = columns[i] != 0 ? 1.f : 0.f;
+      }
+      any = true;
+    }
+    open_columns_of(number)[row] = static_cast<std::uint16_t>(open);
+    const std::uint32_t own = std::uint32_t{1} << row;
+    if (open != 0)
+      touched_rows_[static_cast<std::size_t>(number)] |= own;
+    else
+      open_rows_[static_cast<std::size_t>(number)] &= ~own;
+  }
+  return any;
+}
+
+void FrontToBackAccumulator::clamp(int row, int& begin, int& end) const {
+  int first = begin / block_px, last = (end - 1) / block_px;
+  while (first <= last && open_columns(row, first) == 0) ++first;
+  while (last > first && open_columns(row, last) == 0) --last;
+  begin = std::max(begin, first * block_px);
+  end = std::min(end, (last + 1) * block_px);
+}
+
+std::uint32_t Stamps::add_lines(std::size_t count) {
+  const std::size_t first = line_count;
+  line_count += count;
+  const std::size_t padded = line_count + Canvas::widest_vector;
+  first_values.resize(padded);
+  begins.resize(padded);
+  ends.resize(padded);
+  return static_cast<std::uint32_t>(first);
 }
 
 void Chain::resize(std::size_t count) {
