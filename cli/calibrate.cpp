@@ -8,7 +8,7 @@
 #include "commands.h"
 #include "wheatstone/calibration/calibration.h"
 #include "wheatstone/error.h"
-#include "wheatstone/files/input_guard.h"
+#include "wheatstone/files/output_paths.h"
 
 namespace wheatstone::cli {
 namespace {
@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 struct CalibrateArguments {
   std::string folder;
   std::vector<std::string> left, right;
-  Size board{11, 7};  ///< inner corners
+  PictureSize board{11, 7};  ///< inner corners
   double square_mm = 30;
   std::string output = "calibration.yml";
 };

@@ -15,7 +15,7 @@ namespace {
 struct DepthCommandArguments {
   Given given;
   std::string display = "376x301,mm";
-  Size resolution{1280, 1024};
+  PictureSize resolution{1280, 1024};
   ViewingGeometry viewing{.viewing_distance_mm = 750};
   float near_mm = 100, far_mm = 100;
 };

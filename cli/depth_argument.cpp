@@ -10,7 +10,7 @@
 #include "wheatstone/error.h"
 #include "wheatstone/matching/monocular_network.h"
 #include "wheatstone/photograph/carried_depth.h"
-#include "wheatstone/pictures/depth_file.h"
+#include "wheatstone/pictures/disparity_file.h"
 #include "wheatstone/pictures/read_image.h"
 
 namespace wheatstone::cli {

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "command.h"
-#include "wheatstone/gpu/device.h"
+#include "wheatstone/gpu/gpu.h"
 
 namespace wheatstone::cli {
 

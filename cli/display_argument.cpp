@@ -82,7 +82,7 @@ Value depth_budget(std::optional<float>& budget) {
 
 Value quilt_layout(std::optional<QuiltLayout>& layout) {
   return parsed(layout, [](const std::string& option, const std::string& words) {
-    const Size size = parse_size(option, words, {1, 1000}, "COLUMNSxROWS");
+    const PictureSize size = parse_size(option, words, {1, 1000}, "COLUMNSxROWS");
     return QuiltLayout{size.width, size.height};
   });
 }

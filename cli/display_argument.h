@@ -14,11 +14,11 @@ namespace wheatstone::cli {
 
 /// A display with many views as it is typed.
 struct DisplayArguments {
-  std::string name;          ///< of a preset; empty: there is none
-  std::optional<Size> size;  ///< of a view; none: the display's own
-  int views = 0;             ///< 0: the display's own
-  float span = 0;            ///< 0: chosen from the depth
-  ViewFraming framing;       ///< of a picture of another shape
+  std::string name;                 ///< of a preset; empty: there is none
+  std::optional<PictureSize> size;  ///< of a view; none: the display's own
+  int views = 0;                    ///< 0: the display's own
+  float span = 0;                   ///< 0: chosen from the depth
+  ViewFraming framing;              ///< of a picture of another shape
 };
 
 /// What the display wants, where the user does not say otherwise. Throws Error{wrong_usage}.

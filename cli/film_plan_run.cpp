@@ -10,7 +10,7 @@
 #include "wheatstone/app/eyes_in_film.h"
 #include "wheatstone/app/film_plan.h"
 #include "wheatstone/error.h"
-#include "wheatstone/files/input_guard.h"
+#include "wheatstone/files/output_paths.h"
 
 namespace wheatstone::cli {
 namespace {
@@ -21,25 +21,15 @@ namespace fs = std::filesystem;
 FrameRange part_of(const FilmPlan& plan, const std::string& words) {
   const auto frames = static_cast<std::int64_t>(plan.frames.size());
   if (words.empty()) return {1, frames};
-  const NumberRange numbers{1, 1'000'000'000};
-  const auto two = [&](std::size_t between) {
-    return std::pair<std::int64_t, std::int64_t>{parse_integer("--frame-range", words.substr(0, between), numbers),
-                                                 parse_integer("--frame-range", words.substr(between + 1), numbers)};
-  };
   if (const std::size_t dash = words.find('-'); dash != std::string::npos) {
-    const auto [first, last] = two(dash);
-    return {first, last};
+    const auto number = [](const std::string& word) { return parse_integer("--frame-range", word, {1, 1e9}); };
+    return {number(words.substr(0, dash)), number(words.substr(dash + 1))};
   }
-  const std::size_t slash = words.find('/');
-  if (slash == std::string::npos)
+  if (words.find('/') == std::string::npos)
     throw Error(ErrorKind::wrong_usage,
                 fmt::format("--frame-range: is '{}', expected frames as 1-48, or a part as 2/4", words));
-  const auto [part, parts] = two(slash);
-  if (part > parts)
-    throw Error(ErrorKind::wrong_usage,
-                fmt::format("--frame-range: is '{}', expected at most {}/{}", words, parts, parts));
-  const std::int64_t step = plan.frames_per_segment, segments = (frames + step - 1) / step;
-  return {segments * (part - 1) / parts * step + 1, std::min(segments * part / parts * step, frames)};
+  const Part part = parse_part("--frame-range", words);
+  return frames_of_part(plan, part.number, part.of);
 }
 
 Report run_draw(const std::string& folder, const std::string& words, const Session& session) {

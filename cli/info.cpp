@@ -26,9 +26,9 @@
 #include "wheatstone/photograph/carried_depth.h"
 #include "wheatstone/photograph/find_layout.h"
 #include "wheatstone/photograph/read_views.h"
-#include "wheatstone/pictures/describe_image.h"
 #include "wheatstone/pictures/disparity_file.h"
 #include "wheatstone/pictures/multiview_exr.h"
+#include "wheatstone/pictures/read_image.h"
 #include "wheatstone/video/film_files.h"
 #include "wheatstone/video/film_reader.h"
 

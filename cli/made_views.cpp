@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "stereo_arguments.h"
-#include "wheatstone/app/photograph_views.h"
+#include "wheatstone/app/display_views.h"
 #include "wheatstone/depth/display_presets.h"
 #include "wheatstone/matching/match.h"
 #include "wheatstone/photograph/carried_depth.h"

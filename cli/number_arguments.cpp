@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "wheatstone/error.h"
-#include "wheatstone/image/colour_code.h"
+#include "wheatstone/image/colour.h"
 
 namespace wheatstone::cli {
 namespace {
@@ -96,9 +96,21 @@ float parse_share(const std::string& option, std::string_view text, NumberRange 
                             parse_number(name, number, {percent.least * 0.01 / factor, percent.most * 0.01 / factor}));
 }
 
-Size parse_size(const std::string& option, std::string_view text, NumberRange side, std::string_view expected) {
+PictureSize parse_size(const std::string& option, std::string_view text, NumberRange side, std::string_view expected) {
   const std::vector<int> sides = parse_integers(option, text, {'x', 2, side, expected});
   return {sides[0], sides[1]};
+}
+
+Part parse_part(const std::string& option, const std::string& words) {
+  const std::size_t slash = words.find('/');
+  const std::string number = words.substr(0, slash);
+  if (slash == std::string::npos)
+    throw Error(ErrorKind::wrong_usage, fmt::format("{}: is '{}', expected NUMBER/PARTS, as 3/16", option, words));
+  constexpr double most_parts = 1e6;
+  Part part;
+  part.of = static_cast<int>(parse_integer(option, words.substr(slash + 1), {1, most_parts}));
+  part.number = static_cast<int>(parse_integer(option, number, {1, static_cast<double>(part.of)}));
+  return part;
 }
 
 std::optional<double> parse_time_s(const std::string& option, std::string_view text) {

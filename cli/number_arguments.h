@@ -41,11 +41,16 @@ float parse_share(const std::string& option, std::string_view text, NumberRange 
 std::size_t parse_bytes(const std::string& option, std::string_view text);
 
 /// COLUMNSxROWS or WIDTHxHEIGHT: two whole numbers.
-struct Size {
-  int width, height;
+PictureSize parse_size(const std::string& option, std::string_view text, NumberRange side,
+                       std::string_view expected = "WIDTHxHEIGHT");
+
+/// One of several parts of some work, which machines share.
+struct Part {
+  int number = 1, of = 1;
 };
-Size parse_size(const std::string& option, std::string_view text, NumberRange side,
-                std::string_view expected = "WIDTHxHEIGHT");
+
+/// "3/16": the third of 16 parts.
+Part parse_part(const std::string& option, const std::string& words);
 
 /// A moment of a film in seconds, as ffmpeg takes it: "12.5", "1:02", "1:02:03.5"; nothing where the text is empty.
 std::optional<double> parse_time_s(const std::string& option, std::string_view text);

@@ -160,13 +160,13 @@ Value length(Member& value_mm, NumberRange range_mm) {
       "LENGTH", fmt::format("{}", value_mm));
 }
 
-/// WIDTHxHEIGHT or, with other words, COLUMNSxROWS: a Size or an optional of one.
+/// WIDTHxHEIGHT or, with other words, COLUMNSxROWS: a PictureSize or an optional of one.
 template <class Member>
 Value size(Member& value, NumberRange side, std::string_view expected = "WIDTHxHEIGHT") {
   const auto parse = [side, expected](const std::string& option, const std::string& words) {
     return parse_size(option, words, side, expected);
   };
-  if constexpr (std::is_same_v<Member, Size>) {
+  if constexpr (std::is_same_v<Member, PictureSize>) {
     return parsed(value, parse, {}, fmt::format("{}x{}", value.width, value.height));
   } else {
     return parsed(value, parse);

@@ -14,7 +14,7 @@
 #include "wheatstone/app/pack_film.h"
 #include "wheatstone/app/painted_film.h"
 #include "wheatstone/error.h"
-#include "wheatstone/files/input_guard.h"
+#include "wheatstone/files/output_paths.h"
 #include "wheatstone/video/film_files.h"
 
 namespace wheatstone::cli {

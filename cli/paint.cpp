@@ -2,6 +2,7 @@
 #include <fmt/ostream.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <optional>
@@ -13,19 +14,16 @@
 #include "device_option.h"
 #include "display_argument.h"
 #include "paint_arguments.h"
+#include "paint_display.h"
 #include "photograph_run.h"
 #include "slicing_options.h"
 #include "views_argument.h"
 #include "wheatstone/app/detail_map.h"
-#include "wheatstone/app/model_pictures.h"
 #include "wheatstone/app/paint_photograph.h"
 #include "wheatstone/app/render_limits.h"
 #include "wheatstone/app/write_results.h"
 #include "wheatstone/depth/display_presets.h"
-#include "wheatstone/display/quilt.h"
 #include "wheatstone/error.h"
-#include "wheatstone/kept_memory_internal.h"
-#include "wheatstone/marks/painting_file.h"
 #include "wheatstone/painting/style_parameters.h"
 #include "wheatstone/photograph/photograph_notes.h"
 #include "write_views_output.h"
@@ -74,143 +72,6 @@ void add_summary(Report& report, const PaintingReport& told, std::optional<float
                   100 * measures->painting.survival.bad_2, 100 * measures->photographs.survival.bad_2));
 }
 
-/// Where the results of one photograph go, and all that is read.
-ViewsOutput output_of(const Arguments& arguments, const std::string& name) {
-  ViewsOutput output{name, {arguments.style.style, arguments.matching.model}, arguments.results.format};
-  output.notes = arguments.results.notes;
-  output.inputs.insert(output.inputs.end(), arguments.files.begin(), arguments.files.end());
-  output.inputs.emplace_back(arguments.depth.file);
-  output.inputs.emplace_back(arguments.detail_map);
-  output.inputs.emplace_back(arguments.depth.model);
-  output.inputs.push_back(arguments.model.model.choice.texture);
-  for (const std::string& disparity : {arguments.disparity, arguments.right_disparity}) {
-    output.inputs.emplace_back(disparity);
-    output.inputs.emplace_back(disparity.substr(0, disparity.rfind(':')));  // FILE:SCALE
-  }
-  return output;
-}
-
-/// What a display wants, where the user does not say otherwise.
-DisplayViewsOptions views_options(const Arguments& arguments, const DisplayPreset& display) {
-  DisplayViewsOptions options = display_views_options(display, arguments.display);
-  options.depth = depth_placing_from(arguments);
-  options.device = arguments.painting.device;
-  return options;
-}
-
-/// The quilt or the lenticular picture that the display takes, if it takes one.
-std::optional<DisplayComposition> composition_for(const DisplayPreset& display, int views) {
-  const QuiltLayout layout{display.quilt_columns, display.quilt_rows};
-  if (layout.columns * layout.rows == views) return layout;
-  if (display.lenses.screen_width_px > 0) return lenticular_screen_of(display);
-  return {};
-}
-
-/// Writes the picture that the display takes, and else a picture a view.
-std::string write_views(const DisplayPreset& display, const ViewsOutput& output, const DisplayViews& result,
-                        const Progress& progress) {
-  const std::optional<DisplayComposition>& composition = result.plan.presentation.composition;
-  const Presented& shown = result.shown;
-  if (composition && std::holds_alternative<QuiltLayout>(*composition))
-    return write_quilt(shown.composed, std::get<QuiltLayout>(*composition), display.aspect, output);
-  if (composition) return write_lenticular(shown.composed, output);
-  write_view_folder(shown.views, output, progress);
-  return output.name;
-}
-
-/// What is painted: a photograph of two views, or a pair that was made of one picture and its depth.
-struct Subject {
-  ReadPhotograph photograph;
-  std::optional<float> strength;  ///< of the depth, in widths; none: there are two views
-  Json told() const {
-    if (strength) return {{"strength", *strength}};
-    return Json::parse(preparation_json(photograph.pair));
-  }
-};
-
-bool is_single_picture(const Arguments& arguments) { return has_depth(arguments.depth) || arguments.depth.carried; }
-
-/// Renders what is to be painted, with its exact disparities and what only other views show.
-Subject read_model_subject(const Arguments& arguments, const PhotographJob& job, PaintPhotographOptions& options,
-                           const Session& session) {
-  RenderParticlesOptions seen = arguments.model;
-  seen.width = arguments.model_size.width;
-  seen.height = arguments.model_size.height;
-  const ReadyModel model = ready_model(job.left, seen, session.progress);
-  ModelPictures made = model_pictures(model, seen, widest_views, session.progress);
-  options.left_disparity = std::move(made.left_disparity);
-  options.right_disparity = std::move(made.right_disparity);
-  options.known = std::move(made.known);
-  Subject subject;
-  subject.photograph.pair.pictures = std::move(made.pictures);
-  subject.photograph.pair.eyes = EyeOrder::as_given;
-  subject.photograph.name = job.left;
-  return subject;
-}
-
-/// Reads what is to be painted; what is known of its geometry goes into the options.
-Subject read_subject(const Arguments& arguments, const PhotographJob& job, PaintPhotographOptions& options,
-                     const Session& session) {
-  if (is_model(job)) return read_model_subject(arguments, job, options, session);
-  StereoArguments files = arguments.photographs;
-  files.left = job.left;
-  files.right = job.right;
-  files.may_be_flat = arguments.disparity.empty();
-  if (is_single_picture(arguments)) {
-    SinglePicture single = read_single_picture(files, arguments.depth, session);
-    options.left_disparity = std::move(single.pair.geometry.left_disparity);
-    options.right_disparity = std::move(single.pair.geometry.right_disparity);
-    return {{{.pictures = std::move(single.pair.pictures)}, single.whole}, single.strength};
-  }
-  Subject subject{read_photographs(files, !arguments.disparity.empty(), session), {}};
-  if (!arguments.disparity.empty()) options.left_disparity = read_disparity_argument(arguments.disparity);
-  if (!arguments.right_disparity.empty()) options.right_disparity = read_disparity_argument(arguments.right_disparity);
-  return subject;
-}
-
-PhotographResult with_place(Report report, std::string written) {
-  report.facts.push_back(only_text(fmt::format("written to       {}", written)));
-  return {std::move(report), std::move(written)};
-}
-
-/// Writes the views of a display.
-PhotographResult write_and_tell(const Arguments& arguments, const DisplayPreset& display, const std::string& output,
-                                const DisplayViews& drawn, const Session& session) {
-  const std::string written = write_views(display, output_of(arguments, output), drawn, session.progress);
-  const DisplayPlan& plan = drawn.plan;
-  const Placement& placement = plan.presentation.placement;
-  const std::size_t views = plan.presentation.views.size();
-  const double worst = drawn.shown.worst_bare_share;
-  Report report{{{"output", written},
-                 {"views", views,
-                  fmt::format("painted          {} views of {}x{} pixels, {:.2f} eye separations from first to last",
-                              views, placement.width, placement.height, plan.span)},
-                 {"width", placement.width},
-                 {"height", placement.height},
-                 {"span", plan.span},
-                 {"zero_parallax_px", plan.zero_parallax_px,
-                  fmt::format("zero parallax    disparity {:.1f} px", plan.zero_parallax_px)},
-                 {"worst_bare_share", worst, fmt::format("unpainted        at most {:.2f} % of a view", 100 * worst)}}};
-  return with_place(std::move(report), written);
-}
-
-PhotographResult paint_for_display(const Arguments& arguments, const PhotographJob& job, const Subject& subject,
-                                   const PaintPhotographOptions& painting, const Session& session) {
-  const ReadPhotograph& photograph = subject.photograph;
-  const DisplayPreset& display = find_display(arguments.display.name);
-  const DisplayViewsOptions options = views_options(arguments, display);
-  const PaintedViews result = paint_views(photograph.pair.pictures, painting, options, session.progress,
-                                          composition_for(display, options.views));
-  if (result.confidence) tell_of_match(photograph, *result.confidence, session);
-  PhotographResult painted = write_and_tell(arguments, display, job.output, result.views, session);
-  std::vector<Fact>& facts = painted.report.facts;
-  facts.push_back({subject.strength ? "depth" : "pair", subject.told()});
-  if (result.confidence) facts.push_back({"confidence", Json::parse(confidence_json(*result.confidence))});
-  if (photograph.whole.width > 0)
-    facts.push_back({"reduced_from", {{"width", photograph.whole.width}, {"height", photograph.whole.height}}});
-  return painted;
-}
-
 /// What the options say, before anything is read.
 PaintPhotographOptions options_from(const Arguments& arguments, const Session& session) {
   PaintPhotographOptions options = arguments.painting;
@@ -253,7 +114,7 @@ PhotographResult paint_one(const Arguments& arguments, const PhotographJob& job,
     folder.emplace(output.name, output.inputs);
     for (const std::string& name : result_names(results)) folder->file(name);
   }
-  const Subject subject = read_subject(arguments, job, options, session);
+  const PaintSubject subject = read_subject(arguments, job, options, session);
   const ReadPhotograph& photograph = subject.photograph;
   const StereoPair& pictures = photograph.pair.pictures;
   if (pictures.right.empty()) refuse_for_flat(arguments, photograph.name);
@@ -292,31 +153,6 @@ Arguments arguments_of(const Arguments& given, const PhotographJob& job) {
   of_one.files = given.files;
   of_one.files.insert(of_one.files.end(), {job.left, job.right, job.depth});
   return of_one;
-}
-
-Report draw_for_display_again(const Arguments& arguments, const Session& session) {
-  check_views_output(output_of(arguments, arguments.folder));
-  const DisplayPreset& display = find_display(arguments.display.name);
-  DisplayViewsOptions options = views_options(arguments, display);
-  options.zero_parallax_px = arguments.painting.zero_parallax.disparity_px;
-  const DisplayViews views =
-      draw_display_views(sliced(read_painting_for_views(arguments.files.front()), arguments.slicing), options,
-                         session.progress, composition_for(display, options.views));
-  return write_and_tell(arguments, display, arguments.folder, views, session).report;
-}
-
-Report draw_painting_again(const Arguments& arguments, const Session& session) {
-  if (!arguments.display.name.empty()) return draw_for_display_again(arguments, session);
-  const RedrawOptions options{.scale = arguments.scale,
-                              .svg = arguments.results.svg,
-                              .format = arguments.results.format,
-                              .zero_parallax_px = arguments.painting.zero_parallax.disparity_px,
-                              .depth_budget = arguments.painting.depth_budget,
-                              .depth = depth_placing_from(arguments),
-                              .device = arguments.painting.device};
-  OutputFolder folder(arguments.folder, output_of(arguments, arguments.folder).inputs);
-  draw_again(sliced(read_painting(arguments.files.front()), arguments.slicing), folder, options, session.progress);
-  return {{{"folder", arguments.folder, fmt::format("written to       {}", arguments.folder)}}};
 }
 
 Report run_paint(const Arguments& given, const Session& session) {
@@ -365,6 +201,194 @@ Report run_paint(const Arguments& given, const Session& session) {
   const std::vector<PhotographJob> jobs = paint_jobs(arguments);
   if (jobs.size() > 1) return work_on_all(work, {jobs}, session);
   return work.work(jobs.front(), session).report;
+}
+
+constexpr double farthest_px = 65535;
+
+Value zero_parallax(std::optional<float>& disparity_px) {
+  const auto parse = [](const std::string& option, const std::string& words) -> std::optional<float> {
+    if (words == "nearest") return std::nullopt;
+    return static_cast<float>(parse_number(option, words, {-farthest_px, farthest_px}));
+  };
+  return parsed(disparity_px, parse, {}, "nearest");
+}
+
+Value zero_parallax_at(std::optional<std::pair<int, int>>& at) {
+  return parsed(at, [](const std::string& option, const std::string& words) {
+    const std::vector<int> pixel = parse_integers(option, words, {',', 2, {0, farthest_px}, "X,Y"});
+    return std::pair(pixel[0], pixel[1]);
+  });
+}
+
+/// "with --depth" where one picture has its depth from elsewhere, empty where there are two views.
+std::string single_picture(const PaintArguments& a) {
+  if (is_model_file(a)) return "on a model of triangles";
+  if (has_depth(a.depth)) return fmt::format("with {}", option_of(a.depth));
+  return finds_depth_in_file(a) ? "on a picture that has its own depth" : "";
+}
+
+// Where an option has no effect, and why.
+Reason printing(const PaintArguments& a) {
+  return when([&a] { return !a.print_style.empty(); }, "with --print-style; nothing is painted");
+}
+Reason again(const PaintArguments& a) {
+  return when([&a] { return is_painting_file(a); }, "on a painting (.wst); it works on photographs");
+}
+Reason on_photographs(const PaintArguments& a) {
+  return when([&a] { return !is_painting_file(a); }, "on photographs; it works on a painting (.wst)");
+}
+Reason on_display(const PaintArguments& a) {
+  return when([&a] { return !a.display.name.empty(); }, "with --display; it works with two eyes");
+}
+Reason several(const PaintArguments& a) {
+  return when([&a] { return are_several(a); }, "on several photographs; it belongs to one");
+}
+Reason on_model(const PaintArguments& a) {
+  return when([&a] { return is_model_file(a); }, "on a model of triangles; it works on photographs");
+}
+Reason one_view(const PaintArguments& a) {
+  return [&a] {
+    const std::string situation = single_picture(a);
+    return situation.empty() ? "" : situation + "; it works where there are two views";
+  };
+}
+
+Rows model_rows(PaintArguments& a) {
+  RenderParticlesOptions& seen = a.model;
+  constexpr static std::array<Choice<UpAxis>, 3> axes{
+      {{"auto", UpAxis::by_format}, {"y", UpAxis::y}, {"z", UpAxis::z}}};
+  seen.framing.zoom = Framing().zoom;
+  // About 3 % of the width from the nearest point to the farthest.
+  seen.depth.near_mm = 55;
+  seen.depth.far_mm = 60;
+  return under(
+      "Models",
+      {row("--azimuth", number(seen.framing.azimuth_deg, {-360, 360}),
+           "Direction that the camera looks from, in degrees"),
+       row("--elevation", number(seen.framing.elevation_deg, elevation_range),
+           "Height of the camera above the horizon, in degrees"),
+       row("--fov", number(seen.framing.field_of_view_deg, field_of_view_range),
+           "Horizontal field of view, in degrees"),
+       row("--zoom", number(seen.framing.zoom, zoom_range), "Magnification: 2 shows half as much"),
+       row("--picture-size", size(a.model_size, view_side_range), "Size of the painted pictures: WIDTHxHEIGHT"),
+       row("--up", choice(seen.model.choice.up, axes),
+           "Axis of the model that is up; auto: y in OBJ and glTF, z in PLY and STL"),
+       row("--crease", number(seen.model.choice.crease_deg, crease_range_deg),
+           "For models without normals: triangles that meet at a larger angle than this, in degrees, have an edge "
+           "between them"),
+       row("--model-texture", of_type("FILE", text(seen.model.choice.texture)),
+           "Texture picture for a model that names none"),
+       row("--model-background", parsed(seen.model.background, parse_colour, "COLOUR", "#3a3e44"),
+           "Colour around the model")},
+      {printing(a),
+       when([&a] { return !is_model_file(a); }, "on files other than models; it works on models of triangles")});
+}
+
+Rows file_rows(PaintArguments& a) {
+  const Reason no_disparity =
+      when([&a] { return a.disparity.empty(); }, "without --disparity, which is that of the left view");
+  return {
+      row("PHOTOGRAPHS", texts(a.files),
+          "LEFT and RIGHT photograph; or files that hold both views each: MPO, JPS, side by side, one above the other; "
+          "or one picture with --depth; or one model of triangles (glTF, OBJ, PLY, STL); or one folder of such "
+          "photographs; or one painting.wst, which is drawn again"),
+      row("-o,--output", output_name(a.folder), "Folder for the results", {printing(a)}),
+      row("--format", picture_format(a.results.format),
+          "File format of the painted pictures; masks and disparities are PNG", {printing(a)}),
+      row("--print-style", text(a.print_style), "Print a style as a style file (.toml) and exit"),
+      row("--disparity", text(a.disparity),
+          "Disparity of the left view, which replaces matching: PNG, PFM or EXR as FILE[:SCALE], value / SCALE = "
+          "pixels",
+          {printing(a), again(a), one_view(a), several(a)}),
+      row("--right-disparity", text(a.right_disparity), "Disparity of the right view, in the same form",
+          {printing(a), again(a), one_view(a), several(a), no_disparity}),
+      row("--detail-map", text(a.detail_map),
+          "Picture, stretched over the left photograph, that says how finely each place is painted: white is fine, "
+          "mid-grey is as --fineness says; by default, faces are painted more finely than the rest",
+          {printing(a), again(a), several(a)})};
+}
+
+Rows viewing_rows(PaintArguments& a) {
+  const Reason nearest = when([&a] { return !a.display.name.empty() && !a.painting.zero_parallax.disparity_px; },
+                              "as 'nearest' with --display; it works with a disparity in pixels");
+  return {
+      row("--zero-parallax", zero_parallax(a.painting.zero_parallax.disparity_px),
+          "Disparity in pixels that lies on the screen plane, or 'nearest'", {printing(a), nearest}),
+      row("--zero-parallax-at", zero_parallax_at(a.painting.zero_parallax.at),
+          "Pixel X,Y of the left photograph that lies on the screen plane", {printing(a), again(a), several(a)}, {},
+          {"--zero-parallax"}),
+      row("--depth-budget", depth_budget(a.painting.depth_budget),
+          "Largest depth of side_by_side and anaglyph, from the farthest point to the nearest, in % of the width; they "
+          "are drawn for eyes that are nearer together. 'full' keeps the depth of the photographs",
+          {printing(a), on_display(a)}),
+      row("--depth-mapping", depth_regions(a.depth_mapping),
+          "Depth at several points, SHARE:MM,SHARE:MM,...: SHARE is from 0, the nearest disparity, to 1, the farthest, "
+          "and MM is the depth behind the screen",
+          {printing(a)}, {}, {"--zero-parallax", "--zero-parallax-at", "--depth-budget"}),
+      row("--distance", without_default(number(a.distance_mm, {1, 1e6})),
+          "Viewing distance of a depth mapping, in mm; the display's by default, 700 without one", {printing(a)},
+          "--depth-mapping"),
+      row("--screen-width", without_default(number(a.screen_width_mm, {1, 1e6})),
+          "Width of the screen of a depth mapping, in mm; the display's by default, 376 without one", {printing(a)},
+          "--depth-mapping"),
+      row("--scale", number(a.scale, {0.01, 32}), "Scale factor of a painting.wst that is drawn again",
+          {printing(a), on_photographs(a), on_display(a)}),
+      row("--display", text(a.display.name),
+          "Paint the views of a display, as one quilt where the display takes one:" + display_names(), {printing(a)}),
+      row("--views", without_default(number(a.display.views, view_count_range)),
+          "Number of views; the display's own by default", {printing(a)}, "--display"),
+      framing_row(a.display.framing, "on the display",
+                  {printing(a), when([&a] { return a.display.name.empty(); }, "without --display")})};
+}
+
+Rows drawing_rows(PaintArguments& a) {
+  const Reason disparity =
+      when([&a] { return !a.disparity.empty(); }, "with --disparity; the disparity belongs to the whole picture");
+  const Reason given_depth = [&a] {
+    return has_depth(a.depth) ? single_picture(a) + "; it works where one file holds two views" : "";
+  };
+  return {
+      device_row(a.painting.device, "Device that draws the planned pictures", {printing(a)}),
+      row("--report", flag(a.measure), "Measure the consistency of the two painted views",
+          {printing(a), again(a), on_display(a)}),
+      row("--svg", flag(a.results.svg), "Also write left.svg and right.svg, the marks as vector graphics",
+          {printing(a), on_display(a)}),
+      row("--keep-location", flag(a.keep_location),
+          "Also write the place where the photograph was taken into the results; its title and the other notes of its "
+          "camera are always written",
+          {printing(a), again(a)}),
+      row("--html", flag(a.results.html), "Also write index.html, which shows the pictures",
+          {printing(a), again(a), on_display(a)}),
+      layout_row(a.photographs.layout, {printing(a), again(a), given_depth, on_model(a)}, depth_layout_words),
+      swap_row(a.photographs.swap, {printing(a), again(a), one_view(a)}),
+      max_size_row(a.photographs.max_size, {printing(a), again(a), disparity, on_model(a)}),
+      rectify_row(a.photographs.rectify, {printing(a), again(a), one_view(a)})};
+}
+
+Rows walk_rows(PaintArguments& a) {
+  const auto on_folder = [&a] { return is_photograph_folder(a); };
+  Rows rows = folder_rows(a.walk, on_folder, "painted", "; {style}, the name of the style", {printing(a)});
+  for (Row& option : rows)
+    if (option.names == "--skip-existing") option.unless.push_back(on_display(a));
+  rows.push_back(contact_sheet_row(a.walk, [&a] { return is_photograph_folder(a) || !are_several(a); },
+                                   {printing(a), again(a), on_display(a)}));
+  return rows;
+}
+
+Rows paint_rows(PaintArguments& a) {
+  const Reason known = [&a] {
+    const std::string situation = a.disparity.empty() ? single_picture(a) : "with --disparity";
+    return situation.empty() ? "" : situation + "; nothing is matched where the disparity is given";
+  };
+  const Reason no_depth =
+      when([&a] { return single_picture(a).empty() && !is_photograph_folder(a); }, "without --depth");
+  const Reason no_map = when([&a] { return !has_depth(a.depth) && !is_photograph_folder(a); }, "without --depth");
+  Rows style = under({}, style_rows(a.style), {again(a)});
+  style.front().unless.push_back(printing(a));
+  return join({file_rows(a), viewing_rows(a), slicing_rows(a.slicing, {printing(a), on_photographs(a)}), walk_rows(a),
+               display_view_rows(a.display, {printing(a)}), drawing_rows(a),
+               under({}, depth_rows(a.depth, no_depth, no_map), {printing(a), again(a), on_model(a)}), style,
+               under({}, match_rows(a.matching), {printing(a), again(a), known}), model_rows(a)});
 }
 
 }  // namespace

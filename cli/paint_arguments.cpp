@@ -5,8 +5,10 @@
 #include <filesystem>
 #include <map>
 
+#include "wheatstone/app/render_model_file.h"
 #include "wheatstone/depth/display_presets.h"
 #include "wheatstone/error.h"
+#include "wheatstone/files/whole_file.h"
 #include "wheatstone/marks/style.h"
 #include "wheatstone/models/read_model.h"
 #include "wheatstone/photograph/carried_depth.h"
@@ -27,6 +29,24 @@ bool are_left_and_right(const PaintArguments& arguments) {
                             "both views each (--layout says so of pictures)",
                             files[first ? 0 : 1], files[first ? 1 : 0]));
   return !first;
+}
+
+/// Renders what is to be painted, with its exact disparities and what only other views show.
+PaintSubject read_model_subject(const PaintArguments& arguments, const PhotographJob& job,
+                                PaintPhotographOptions& options, const Session& session) {
+  RenderParticlesOptions seen = arguments.model;
+  seen.width = arguments.model_size.width;
+  seen.height = arguments.model_size.height;
+  const ReadyModel model = ready_model(job.left, seen, session.progress);
+  ModelPictures made = model_pictures(model, seen, widest_views, session.progress);
+  options.left_disparity = std::move(made.left_disparity);
+  options.right_disparity = std::move(made.right_disparity);
+  options.known = std::move(made.known);
+  PaintSubject subject;
+  subject.photograph.pair.pictures = std::move(made.pictures);
+  subject.photograph.pair.eyes = EyeOrder::as_given;
+  subject.photograph.name = job.left;
+  return subject;
 }
 
 }  // namespace
@@ -73,6 +93,29 @@ bool finds_depth_in_file(const PaintArguments& arguments) {
   for (const char* option : {"--layout", "--swap", "--disparity"})
     if (arguments.given(option)) return false;
   return !is_stereo_file_name(arguments.files.front()) && carries_depth(arguments.files.front());
+}
+
+bool is_single_picture(const PaintArguments& arguments) {
+  return has_depth(arguments.depth) || arguments.depth.carried;
+}
+
+PaintSubject read_subject(const PaintArguments& arguments, const PhotographJob& job, PaintPhotographOptions& options,
+                          const Session& session) {
+  if (is_model(job)) return read_model_subject(arguments, job, options, session);
+  StereoArguments files = arguments.photographs;
+  files.left = job.left;
+  files.right = job.right;
+  files.may_be_flat = arguments.disparity.empty();
+  if (is_single_picture(arguments)) {
+    SinglePicture single = read_single_picture(files, arguments.depth, session);
+    options.left_disparity = std::move(single.pair.geometry.left_disparity);
+    options.right_disparity = std::move(single.pair.geometry.right_disparity);
+    return {{{.pictures = std::move(single.pair.pictures)}, single.whole}, single.strength};
+  }
+  PaintSubject subject{read_photographs(files, !arguments.disparity.empty(), session), {}};
+  if (!arguments.disparity.empty()) options.left_disparity = read_disparity_argument(arguments.disparity);
+  if (!arguments.right_disparity.empty()) options.right_disparity = read_disparity_argument(arguments.right_disparity);
+  return subject;
 }
 
 std::vector<PhotographJob> paint_jobs(const PaintArguments& arguments) {

@@ -39,15 +39,12 @@ struct PaintArguments {
   double scale = 1;
   Slicing slicing;  ///< of a painting that is drawn again
   DisplayArguments display;
-  RenderParticlesOptions model;  ///< how a model of triangles is seen
-  Size model_size{1200, 900};    ///< of its pictures
+  RenderParticlesOptions model;       ///< how a model of triangles is seen
+  PictureSize model_size{1200, 900};  ///< of its pictures
   bool measure = false;
   MatchArguments matching;
   StyleArguments style;
 };
-
-/// The options of `paint`.
-Rows paint_rows(PaintArguments& a);
 
 /// Where a viewer is to see the scene's parts. Throws Error{wrong_usage}.
 DepthPlacing depth_placing_from(const PaintArguments& arguments);
@@ -81,6 +78,23 @@ PhotographList photographs_to_paint(const PaintArguments& arguments, const Sessi
 
 /// The one photograph that is given, once for each preset of a style, each with a folder of its name.
 std::vector<PhotographJob> a_job_for_each_style(const PaintArguments& arguments);
+
+/// What is painted: a photograph of two views, or a pair that was made of one picture and its depth.
+struct PaintSubject {
+  ReadPhotograph photograph;
+  std::optional<float> strength;  ///< of the depth, in widths; none: there are two views
+  Json told() const {
+    if (strength) return {{"strength", *strength}};
+    return Json::parse(preparation_json(photograph.pair));
+  }
+};
+
+/// Whether it is one picture with its depth.
+bool is_single_picture(const PaintArguments& arguments);
+
+/// Reads what is to be painted, or renders it where it is a model; what is known of its geometry goes into the options.
+PaintSubject read_subject(const PaintArguments& arguments, const PhotographJob& job, PaintPhotographOptions& options,
+                          const Session& session);
 
 /// The painted picture of a job, of the left eye where there are two; none where it was not painted.
 std::optional<std::filesystem::path> painted_picture(const PhotographJob& job, const std::string& format);

@@ -9,6 +9,7 @@
 
 #include "placeholders.h"
 #include "wheatstone/error.h"
+#include "wheatstone/files/whole_file.h"
 #include "wheatstone/photograph/carried_depth.h"
 #include "wheatstone/photograph/find_layout.h"
 
@@ -24,18 +25,6 @@ void refuse_output_within(const std::string& folder, const std::string& output) 
     throw Error(ErrorKind::wrong_usage,
                 fmt::format("{}: lies in {}, the folder of the photographs; expected an output (-o) outside it", output,
                             folder));
-}
-
-FolderPart folder_part(const std::string& option, const std::string& words) {
-  const std::size_t slash = words.find('/');
-  const std::string number = words.substr(0, slash);
-  if (slash == std::string::npos)
-    throw Error(ErrorKind::wrong_usage, fmt::format("{}: is '{}', expected NUMBER/PARTS, as 3/16", option, words));
-  constexpr double most_parts = 1e6;
-  FolderPart part;
-  part.of = static_cast<int>(parse_integer(option, words.substr(slash + 1), {1, most_parts}));
-  part.number = static_cast<int>(parse_integer(option, number, {1, static_cast<double>(part.of)}));
-  return part;
 }
 
 /// The name of a result without its ending. Throws Error{wrong_usage} where it leads out of the output.
@@ -64,7 +53,7 @@ Rows folder_rows(FolderArguments& a, const std::function<bool()>& is_folder, std
            fmt::format("Show which files of a folder are photographs, and why; nothing is {}", done), reasons),
        row("--skip-existing", flag(a.skip_existing),
            "Skip photographs of a folder whose results exist already, to continue a run", reasons),
-       row("--part", parsed(a.part, folder_part, "NUMBER/PARTS"),
+       row("--part", parsed(a.part, parse_part, "NUMBER/PARTS"),
            "Take only this part of a folder's photographs, which are dealt out by name: 3/16 on the third of 16 "
            "machines",
            reasons),
@@ -85,11 +74,6 @@ Row contact_sheet_row(FolderArguments& a, const std::function<bool()>& is_folder
                   "Also write contact_sheet.png, which shows all results, small, with their names", std::move(unless));
   sheet.heading = "A folder of photographs";
   return sheet;
-}
-
-bool is_folder(const std::string& input) {
-  std::error_code error;
-  return fs::is_directory(input, error);
 }
 
 PhotographList photographs_in_folder(const std::string& folder, const StereoArguments& photographs,

@@ -13,17 +13,12 @@
 
 namespace wheatstone::cli {
 
-/// Every `of`th of a folder's photographs, from the `number`th on: what one of several machines works on.
-struct FolderPart {
-  int number = 1, of = 1;
-};
-
 /// How a folder of photographs is worked on, as it is typed: the same for all commands.
 struct FolderArguments {
   std::string pairs;            ///< the table of pairs; empty: there is none
   std::string name = "{stem}";  ///< of a result, with placeholders
   bool dry_run = false, skip_existing = false, contact_sheet = false;
-  FolderPart part;
+  Part part;  ///< every `of`th photograph, from the `number`th on
 };
 
 /// --dry-run, --skip-existing, --part, --pairs and --name, which have an effect where `is_folder` holds and none of
@@ -34,9 +29,6 @@ Rows folder_rows(FolderArguments& arguments, const std::function<bool()>& is_fol
 
 /// --contact-sheet, likewise; of `paint` it has an effect on one photograph, too.
 Row contact_sheet_row(FolderArguments& arguments, const std::function<bool()>& is_folder, Reasons unless = {});
-
-/// Whether the input is a folder.
-bool is_folder(const std::string& input);
 
 /// One photograph and where its result goes.
 struct PhotographJob {

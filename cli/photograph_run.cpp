@@ -17,9 +17,10 @@
 #include "wheatstone/app/contact_sheet.h"
 #include "wheatstone/error.h"
 #include "wheatstone/files/unfinished_outputs.h"
-#include "wheatstone/pictures/describe_image.h"
+#include "wheatstone/files/whole_file.h"
+#include "wheatstone/pictures/read_image.h"
 #include "wheatstone/pictures/write_image.h"
-#include "wheatstone/stereo/reduced_pair.h"
+#include "wheatstone/stereo/picture_sizes.h"
 
 namespace wheatstone::cli {
 namespace {

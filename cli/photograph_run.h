@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "photograph_folder.h"
+#include "wheatstone/files/whole_file.h"
 
 namespace wheatstone::cli {
 

@@ -7,7 +7,7 @@
 
 #include "placeholders.h"
 #include "wheatstone/error.h"
-#include "wheatstone/files/utf8.h"
+#include "wheatstone/files/text_encoding.h"
 
 namespace wheatstone::cli {
 namespace {

@@ -7,7 +7,7 @@
 #include <CLI/CLI.hpp>
 
 #include "commands.h"
-#include "wheatstone/files/plain_file.h"
+#include "wheatstone/files/whole_file.h"
 
 namespace wheatstone::cli {
 namespace {

@@ -5,8 +5,8 @@
 #include <filesystem>
 
 #include "commands.h"
+#include "render_arguments.h"
 #include "render_film.h"
-#include "render_options.h"
 #include "slices_argument.h"
 #include "wheatstone/app/annotate.h"
 #include "wheatstone/app/render_model_file.h"
@@ -15,7 +15,7 @@
 #include "wheatstone/display/lenticular.h"
 #include "wheatstone/display/quilt.h"
 #include "wheatstone/error.h"
-#include "wheatstone/files/input_guard.h"
+#include "wheatstone/files/output_paths.h"
 #include "wheatstone/files/temporary_file.h"
 #include "wheatstone/multiview/render_slices.h"
 #include "wheatstone/multiview/slice_file.h"

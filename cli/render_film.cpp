@@ -19,7 +19,7 @@
 #include "wheatstone/app/render_model_file.h"
 #include "wheatstone/display/lenticular.h"
 #include "wheatstone/error.h"
-#include "wheatstone/files/input_guard.h"
+#include "wheatstone/files/output_paths.h"
 #include "wheatstone/video/frame_sequence.h"
 
 namespace wheatstone::cli {

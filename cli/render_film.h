@@ -1,7 +1,7 @@
 #pragma once
 
 #include "command.h"
-#include "render_options.h"
+#include "render_arguments.h"
 
 namespace wheatstone::cli {
 

@@ -22,7 +22,7 @@
 #include "wheatstone/app/painted_film.h"
 #include "wheatstone/app/rotoscope_film.h"
 #include "wheatstone/error.h"
-#include "wheatstone/files/input_guard.h"
+#include "wheatstone/files/output_paths.h"
 #include "wheatstone/motion/flow_file.h"
 #include "wheatstone/pictures/disparity_file.h"
 #include "wheatstone/stereo/geometry_from_disparity.h"

@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "render_options.h"
+#include "render_arguments.h"
 #include "wheatstone/app/render_particles.h"
 #include "wheatstone/progress.h"
 

@@ -16,8 +16,8 @@
 #include "wheatstone/photograph/read_views.h"
 #include "wheatstone/pictures/disparity_file.h"
 #include "wheatstone/pictures/read_image.h"
-#include "wheatstone/stereo/common_part.h"
 #include "wheatstone/stereo/fitting_pair.h"
+#include "wheatstone/stereo/picture_sizes.h"
 
 namespace wheatstone::cli {
 namespace {
@@ -84,7 +84,7 @@ NamedPair read_two_files(const StereoArguments& arguments) {
     throw Error(ErrorKind::wrong_usage, "--layout is for one file that holds both views, but two files are given");
   StereoPair pair{read_image(arguments.left), read_image(arguments.right)};
   std::string framed;
-  const ImageSize left{pair.left.width(), pair.left.height()}, right{pair.right.width(), pair.right.height()};
+  const PictureSize left{pair.left.width(), pair.left.height()}, right{pair.right.width(), pair.right.height()};
   if (differ_by_few(left, right)) {
     frame_common_part(pair);
     framed = fmt::format("{}, {}: {}x{} and {}x{} pixels, framed to the common {}x{}", arguments.left, arguments.right,

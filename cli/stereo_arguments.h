@@ -6,7 +6,7 @@
 #include "command.h"
 #include "wheatstone/calibration/prepare_pair.h"
 #include "wheatstone/matching/match_confidence.h"
-#include "wheatstone/stereo/reduced_pair.h"
+#include "wheatstone/stereo/picture_sizes.h"
 #include "wheatstone/stereo/stereo_pair.h"
 
 namespace wheatstone::cli {

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "commands.h"
-#include "wheatstone/files/input_guard.h"
+#include "wheatstone/files/output_paths.h"
 #include "wheatstone/files/whole_file.h"
 #include "wheatstone/study/study_design.h"
 #include "wheatstone/study/trial_plan.h"

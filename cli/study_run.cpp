@@ -1,6 +1,5 @@
 #include "commands.h"
 #include "interrupt.h"
-#include "study_run_arguments.h"
 #include "wheatstone/study/study_folder.h"
 #include "window_program.h"
 

@@ -39,7 +39,7 @@ struct StudyStimuliArguments {
   float disparity_arcsec = 400;
   int views = 2;
   float span = 1;
-  Size size{1024, 768};
+  PictureSize size{1024, 768};
   StudyScreen screen;
   std::string photographs;  ///< a folder, for comfort
   std::string style = "oil";

@@ -18,7 +18,7 @@ namespace {
 
 struct SynthFilmArguments {
   std::string folder = "film";
-  Size size{640, 360};
+  PictureSize size{640, 360};
   SyntheticFilmOptions film;
 };
 

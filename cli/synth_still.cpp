@@ -20,7 +20,7 @@ constexpr std::array<Choice<bool>, 2> cameras{{{"ideal", false}, {"phone", true}
 
 struct SynthStillArguments {
   std::string folder = "still";
-  Size size{960, 720};
+  PictureSize size{960, 720};
   SyntheticStillOptions still;
   int views = 2;
   bool phone = false;

@@ -1,7 +1,6 @@
 #include <filesystem>
 
 #include "commands.h"
-#include "view_arguments.h"
 #include "window_program.h"
 
 namespace wheatstone::cli {

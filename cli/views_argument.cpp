@@ -17,6 +17,7 @@
 #include "wheatstone/depth/rig.h"
 #include "wheatstone/display/quilt.h"
 #include "wheatstone/error.h"
+#include "wheatstone/files/whole_file.h"
 #include "wheatstone/marks/painting_file.h"
 #include "wheatstone/multiview/render_slices.h"
 #include "wheatstone/multiview/slice_file.h"
@@ -222,8 +223,8 @@ Row views_device_row(ViewsArguments& a) {
 }
 
 std::vector<fs::path> files_read(const ViewsArguments& arguments) {
-  const bool is_folder = arguments.files.size() == 1 && fs::is_directory(arguments.files.front());
-  if (is_folder) return pictures_in_folder(arguments.files.front());
+  if (arguments.files.size() == 1 && is_folder(arguments.files.front()))
+    return pictures_in_folder(arguments.files.front());
   return {arguments.files.begin(), arguments.files.end()};
 }
 

@@ -9,9 +9,9 @@
 #include "command.h"
 #include "wheatstone/display/compose.h"
 #include "wheatstone/display/quilt.h"
-#include "wheatstone/gpu/device.h"
+#include "wheatstone/gpu/gpu.h"
 #include "wheatstone/marks/slicing.h"
-#include "wheatstone/stereo/reduced_pair.h"
+#include "wheatstone/stereo/picture_sizes.h"
 
 namespace wheatstone::cli {
 

@@ -17,6 +17,69 @@
 #include "wheatstone/files/child_process.h"
 
 namespace wheatstone::cli {
+
+Rows study_run_rows(StudyRunArguments& a) {
+  return {row("design", required(of_type("NAME|FILE.toml", text(a.design))), "Design, as for study design"),
+          row("-o,--output", output_name(a.folder), "Folder of the data"),
+          row("--subject", number(a.subject, {1, 100'000}), "Number of the subject, from 1 on"),
+          row("--mode", text(a.mode), "Output mode, as --to of 'wheatstone pack'"),
+          row("--screen-width", without_default(length(a.screen_width_mm, {50, 10'000})),
+              "Width of the screen's picture; as the screen tells if not given"),
+          row("--card", of_type("PIXELS", without_default(number(a.card_px, {10, 10'000}))),
+              "Width of a bank card (85.6 mm) held to the screen, in pixels, instead of --screen-width", {}, {},
+              {"--screen-width"}),
+          row("--distance", length(a.distance_mm, {100, 10'000}), "Viewing distance"),
+          row("--eye-separation", length(a.eye_separation_mm, {40, 90}), "Separation of the eyes"),
+          row("--tracker", number(a.tracker_port, {-1, 65'535}),
+              "UDP port of a head tracker that speaks OpenTrack's protocol; -1: none"),
+          row("--pointer", flag(a.pointer), "The pointer stands for the head; the arrow keys always do"),
+          row("--size", text(a.size), "A window of WIDTHxHEIGHT instead of the full screen, to try a study"),
+          row("--opengl", flag(a.opengl), "Show by OpenGL also where the processor computes it"),
+          row("--no-opengl", flag(a.no_opengl), "Show without OpenGL; times are then of painting, not of swaps", {}, {},
+              {"--opengl"})};
+}
+
+double screen_width_mm(const StudyRunArguments& arguments, int width_px) {
+  constexpr double card_width_mm = 85.60;  // ISO/IEC 7810 ID-1
+  if (arguments.card_px > 0) return card_width_mm / arguments.card_px * width_px;
+  return arguments.screen_width_mm;
+}
+
+Rows view_rows(ViewArguments& a) {
+  return {
+      row("FILE", texts(a.files),
+          "Paintings (.wst), stereo photographs, films, pictures with depth, quilts, slices (.exr), particles, or a "
+          "series of snapshots ('snap_%03d.hdf5'), or a folder of photographs; two pictures of one scene are its left "
+          "and right view"),
+      row("--mode", text(a.mode), "Output mode, as --to of 'wheatstone pack'; the left eye's picture by default"),
+      row("--style", text(a.style), "Style of painted photographs: a preset or a style file"),
+      row("--display", text(a.display), "Display, which sets the views of a quilt and the comfortable depth"),
+      row("--camera", text(a.camera), "Camera path to play, as in 'wheatstone render'"),
+      row("--quantity", text(a.quantity),
+          "Quantity of particles that is shown, as in 'wheatstone render': column-density, mean:temperature"),
+      row("--focus", text(a.focus),
+          "Point X,Y of particles or slices around which there is more depth: shares of a view's width and height"),
+      row("--focus-radius", number(a.focus_radius, {-no_bound, no_bound}),
+          "Radius of the area around that point, as a share of the width", {}, "--focus"),
+      row("--focus-gain", number(a.focus_gain, {-no_bound, no_bound}), "Factor on the depth at that point", {},
+          "--focus"),
+      row("--size", text(a.size), "Size of the window: WIDTHxHEIGHT"),
+      row("--full-screen", flag(a.full_screen), "Begin in full screen"),
+      row("--opengl", flag(a.opengl), "Show pictures by OpenGL even if the processor emulates it, which is slower"),
+      row("--no-opengl", flag(a.no_opengl), "Show pictures without OpenGL", {}, {}, {"--opengl"}),
+      row("--stereo", flag(a.stereo),
+          "Let the graphics card show both eyes in turn, for --mode page-flip and shutter glasses", {}, {},
+          {"--no-opengl"}),
+      row("--script", text(a.script), "Run the commands in this file, one per line, and exit"),
+      row("--control", text(a.control),
+          "Create a Unix socket on which other programs send commands, one per line; each command gets one line as "
+          "answer"),
+      row("--bridge-calibration", text(a.bridge_calibration),
+          "Write the calibration of the attached Looking Glass, as reported by Looking Glass Bridge, to this .json "
+          "file, and exit"),
+      row("--commands", flag(a.commands), "List all commands with their keys, and exit")};
+}
+
 namespace {
 
 namespace fs = std::filesystem;

@@ -7,7 +7,7 @@
 #include <cctype>
 
 #include "wheatstone/app/output_folder.h"
-#include "wheatstone/files/input_guard.h"
+#include "wheatstone/files/output_paths.h"
 #include "wheatstone/pictures/write_image.h"
 
 namespace wheatstone::cli {

@@ -16,7 +16,7 @@
 #include "calls.h"
 #include "wheatstone/app/painted_film.h"
 #include "wheatstone/app/rotoscope_film.h"
-#include "wheatstone/files/input_guard.h"
+#include "wheatstone/files/output_paths.h"
 #include "wheatstone/number_range.h"
 #include "wheatstone/video/film_files.h"
 

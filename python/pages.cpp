@@ -12,11 +12,7 @@
 #include "wheatstone/error.h"
 #include "wheatstone/files/whole_file.h"
 #include "wheatstone/share/page.h"
-#include "wheatstone/share/share_film.h"
-#include "wheatstone/share/share_painting.h"
-#include "wheatstone/share/share_photograph.h"
-#include "wheatstone/share/share_slices.h"
-#include "wheatstone/share/share_views.h"
+#include "wheatstone/share/share_pictures.h"
 
 namespace wheatstone::python {
 namespace {

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/render_call.h"
+#include "cli/render_arguments.h"
 #include "wheatstone/app/render_particles.h"
 #include "wheatstone/particles/cloud_source.h"
 

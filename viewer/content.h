@@ -14,7 +14,7 @@
 #include "wheatstone/marks/painting.h"
 #include "wheatstone/multiview/slice_stack.h"
 #include "wheatstone/progress.h"
-#include "wheatstone/stereo/reduced_pair.h"
+#include "wheatstone/stereo/picture_sizes.h"
 #include "wheatstone/stereo/retouch.h"
 #include "wheatstone/stereo/stereo_pair.h"
 

@@ -5,10 +5,10 @@
 #include <gtest/gtest.h>
 
 #include "command_table.h"
-#include "devices.h"
+#include "folder_items.h"
+#include "output_mode.h"
 #include "style_previews.h"
 #include "temporary_folder.h"
-#include "thumbnail.h"
 #include "viewer.h"
 #include "wheatstone/files/whole_file.h"
 #include "wheatstone/marks/painting_file.h"

@@ -4,15 +4,22 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <set>
 #include <system_error>
 #include <utility>
 
 #include "content.h"
+#include "wheatstone/display/quilt.h"
+#include "wheatstone/drawing/draw.h"
 #include "wheatstone/error.h"
+#include "wheatstone/marks/painting_file.h"
 #include "wheatstone/photograph/find_layout.h"
 #include "wheatstone/photograph/find_photographs.h"
+#include "wheatstone/photograph/read_views.h"
+#include "wheatstone/pictures/read_image.h"
 #include "wheatstone/pictures/write_image.h"
+#include "wheatstone/stereo/picture_sizes.h"
 #include "wheatstone/video/film_files.h"
 #include "wheatstone/video/frame_sequence.h"
 
@@ -99,11 +106,6 @@ bool comes_before(std::string_view name, std::string_view other) {
   return whole_name < whole_other;
 }
 
-bool is_folder(const fs::path& path) {
-  std::error_code error;
-  return fs::is_directory(path, error);
-}
-
 std::vector<Item> items_in(const fs::path& folder) { return items_of(folder, folder); }
 
 std::vector<Item> items_beside(const Item& item) {
@@ -129,6 +131,30 @@ bool holds_film(const fs::path& folder) {
     return !film.right.empty() || !pattern || numbers_of(*pattern).size() >= 2;
   } catch (const Error&) {
     return false;
+  }
+}
+
+namespace {
+
+Image<Rgb8> picture_of(const std::filesystem::path& file) {
+  if (file.extension() == ".wst") return draw(read_painting(file), left_eye).picture;
+  if (const auto quilt = quilt_of_name(file.filename().string()))
+    return std::move(views_of_quilt(read_image(file), quilt->layout).front());
+  std::optional<ViewsFile> found = find_views(file);
+  return found ? std::move(found->views.front()) : read_image(file);
+}
+
+}  // namespace
+
+Image<Rgb8> thumbnail_of(const Item& files, PictureSize largest) {
+  try {
+    const Image<Rgb8> picture = picture_of(files.front());
+    const double scale = std::min({static_cast<double>(largest.width) / picture.width(),
+                                   static_cast<double>(largest.height) / picture.height(), 1.});
+    const auto scaled = [scale](int side) { return std::max(static_cast<int>(std::lround(side * scale)), 1); };
+    return reduced(picture, {scaled(picture.width()), scaled(picture.height())});
+  } catch (const Error&) {
+    return {};
   }
 }
 

@@ -1,12 +1,13 @@
 #include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "command_table.h"
 #include "depth_seen.h"
-#include "devices.h"
 #include "inputs.h"
+#include "output_mode.h"
 #include "particle_scene.h"
 #include "wheatstone/depth/display_presets.h"
 #include "wheatstone/display/lenticular.h"

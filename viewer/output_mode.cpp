@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -124,6 +126,24 @@ std::string seen_views_told(const ViewState& state) {
   const std::vector<ViewPosition> views = display_views(state);
   return fmt::format("on {} the left eye sees view {} and the right eye view {} of {}", state.display,
                      nearest(views, eyes.left) + 1, nearest(views, eyes.right) + 1, views.size());
+}
+
+std::span<const LookingWith> devices() {
+  static constexpr std::array known{LookingWith{"no-glasses", "No glasses", "left", ""},
+                                    LookingWith{"red-cyan", "Red-cyan glasses", "red-cyan", ""},
+                                    LookingWith{"3d-screen", "3D screen or projector", "left-right-half", ""},
+                                    LookingWith{"looking-glass", "Looking Glass", "quilt", "looking-glass-portrait"},
+                                    LookingWith{"headset", "Headset", "left-right", ""}};
+  return known;
+}
+
+const LookingWith& find_device(std::string_view name) {
+  const auto found = std::ranges::find(devices(), name, &LookingWith::name);
+  if (found != devices().end()) return *found;
+  std::vector<std::string_view> names;
+  for (const LookingWith& device : devices()) names.push_back(device.name);
+  throw Error(ErrorKind::wrong_usage,
+              fmt::format("'{}' is no viewing device, expected one of: {}", name, fmt::join(names, ", ")));
 }
 
 }  // namespace wheatstone::viewer

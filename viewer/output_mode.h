@@ -68,4 +68,18 @@ Leaks leaks_of(const ViewState& state);
 /// Which of the display's views each eye sees, as one line; empty without the lens simulator.
 std::string seen_views_told(const ViewState& state);
 
+/// What somebody looks with, and how pictures are put on the screen for it.
+struct LookingWith {
+  std::string_view name;     ///< "red-cyan"
+  std::string_view text;     ///< for people
+  std::string_view mode;     ///< an output mode
+  std::string_view display;  ///< a display preset; empty: any
+};
+
+/// The first is that of somebody who has not said anything: no glasses.
+std::span<const LookingWith> devices();
+
+/// Throws Error{wrong_usage} that lists the names.
+const LookingWith& find_device(std::string_view name);
+
 }  // namespace wheatstone::viewer

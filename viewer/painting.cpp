@@ -1,6 +1,7 @@
 #include "painting.h"
 
 #include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -13,10 +14,10 @@
 #include "wheatstone/app/rotoscope_film.h"
 #include "wheatstone/depth/comfort.h"
 #include "wheatstone/error.h"
-#include "wheatstone/files/input_guard.h"
+#include "wheatstone/files/output_paths.h"
 #include "wheatstone/painting/paint.h"
 #include "wheatstone/stereo/geometry_from_disparity.h"
-#include "wheatstone/stereo/reduced_pair.h"
+#include "wheatstone/stereo/picture_sizes.h"
 
 namespace wheatstone::viewer {
 namespace {

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <filesystem>
@@ -8,7 +9,7 @@
 #include "command_table.h"
 #include "inputs.h"
 #include "wheatstone/error.h"
-#include "wheatstone/files/input_guard.h"
+#include "wheatstone/files/output_paths.h"
 #include "wheatstone/painting/paint.h"
 #include "wheatstone/pictures/disparity_file.h"
 #include "wheatstone/pictures/write_image.h"

@@ -12,7 +12,7 @@
 #include "wheatstone/display/quilt.h"
 #include "wheatstone/error.h"
 #include "wheatstone/image/mat_opencv.h"
-#include "wheatstone/stereo/reduced_pair.h"
+#include "wheatstone/stereo/picture_sizes.h"
 
 namespace wheatstone::viewer {
 namespace {

@@ -7,7 +7,7 @@
 #include "layers_apart.h"
 #include "view_drawer.h"
 #include "view_state.h"
-#include "wheatstone/stereo/reduced_pair.h"
+#include "wheatstone/stereo/picture_sizes.h"
 
 namespace wheatstone::viewer {
 

@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "command_table.h"
-#include "devices.h"
+#include "output_mode.h"
 #include "script.h"
 #include "temporary_folder.h"
 #include "viewer.h"

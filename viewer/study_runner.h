@@ -98,7 +98,7 @@ class StudyRunner {
   HeadPlace head_;
   TrialRecord now_;        ///< of the trial that is shown
   std::string head_path_;  ///< its lines
-  std::array<ShownView, 2> seen_{};
+  std::array<SimulatedView, 2> seen_{};
   std::filesystem::path scene_path_;
   std::optional<StudyScene> scene_;  ///< that was last shown
 };

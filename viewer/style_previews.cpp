@@ -4,7 +4,7 @@
 #include "wheatstone/drawing/draw.h"
 #include "wheatstone/error.h"
 #include "wheatstone/painting/paint.h"
-#include "wheatstone/stereo/reduced_pair.h"
+#include "wheatstone/stereo/picture_sizes.h"
 
 namespace wheatstone::viewer {
 namespace {

@@ -13,7 +13,7 @@
 #include "wheatstone/display/disparity_picture.h"
 #include "wheatstone/error.h"
 #include "wheatstone/multiview/render_slices.h"
-#include "wheatstone/stereo/reduced_pair.h"
+#include "wheatstone/stereo/picture_sizes.h"
 
 namespace wheatstone::viewer {
 namespace {

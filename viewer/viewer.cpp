@@ -17,6 +17,7 @@
 #include "screens.h"
 #include "wheatstone/depth/comfort.h"
 #include "wheatstone/error.h"
+#include "wheatstone/files/whole_file.h"
 #include "wheatstone/pictures/write_image.h"
 #include "wheatstone/synthetic/synthetic_still.h"
 

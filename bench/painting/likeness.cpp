@@ -35,7 +35,7 @@
 #include "wheatstone/pictures/read_image.h"
 #include "wheatstone/pictures/write_image.h"
 #include "wheatstone/stereo/geometry_from_disparity.h"
-#include "wheatstone/stereo/reduced_pair.h"
+#include "wheatstone/stereo/picture_sizes.h"
 #include "wheatstone/synthetic/synthetic_still.h"
 
 namespace wheatstone::bench {

@@ -11,10 +11,10 @@
 #include <opencv2/calib3d.hpp>
 
 #include "stopwatch.h"
+#include "wheatstone/app/paint_photograph.h"
 #include "wheatstone/depth/rig.h"
 #include "wheatstone/drawing/draw.h"
 #include "wheatstone/image/mat_opencv.h"
-#include "wheatstone/kept_memory_internal.h"
 #include "wheatstone/painting/paint.h"
 #include "wheatstone/synthetic/synthetic_still.h"
 

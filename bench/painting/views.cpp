@@ -24,7 +24,6 @@
 #include "wheatstone/drawing/draw.h"
 #include "wheatstone/error.h"
 #include "wheatstone/measures/consistency.h"
-#include "wheatstone/measures/depth_survival.h"
 #include "wheatstone/measures/wrong_spots.h"
 #include "wheatstone/painting/paint.h"
 #include "wheatstone/pictures/disparity_file.h"

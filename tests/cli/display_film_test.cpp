@@ -131,7 +131,7 @@ TEST(DisplayFilmLong, MemoryDoesNotGrowWithTheFilm) {
 
 // What the displays' makers publish, and what H.264 up to level 5.2 holds.
 TEST(DisplayFilm, QuiltsTooLargeForH264AreHevc) {
-  const auto display = [](const char* name, std::optional<cli::Size> size = {}) {
+  const auto display = [](const char* name, std::optional<PictureSize> size = {}) {
     return cli::film_display_from({.name = name, .size = size}).value();
   };
   const FilmDisplay portrait = display("looking-glass-portrait");
@@ -140,7 +140,7 @@ TEST(DisplayFilm, QuiltsTooLargeForH264AreHevc) {
   for (const char* name :
        {"looking-glass-go", "looking-glass-portrait", "looking-glass-16", "looking-glass-32", "looking-glass-65"})
     EXPECT_EQ(cli::codec_for(display(name)), "hevc") << name;
-  EXPECT_EQ(cli::codec_for(display("looking-glass-portrait", cli::Size{210, 280})), "h264");
+  EXPECT_EQ(cli::codec_for(display("looking-glass-portrait", PictureSize{210, 280})), "h264");
   EXPECT_EQ(cli::codec_for(display("step-9")), "h264");
 }
 

@@ -1,4 +1,4 @@
-#include "cli/view_arguments.h"
+#include "cli/window_program.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

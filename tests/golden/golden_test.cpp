@@ -24,7 +24,7 @@
 #include "painting_generated.h"
 #include "scenes/two_surfaces.h"
 #include "wheatstone/drawing/draw.h"
-#include "wheatstone/marks/deflated.h"
+#include "wheatstone/files/deflate.h"
 #include "wheatstone/marks/painting_file.h"
 #include "wheatstone/painting/paint.h"
 #include "wheatstone/pictures/read_image.h"

@@ -22,7 +22,7 @@
 #include "cli/failure.h"
 #include "cli/interrupt.h"
 #include "cli/report.h"
-#include "cli/view_arguments.h"
+#include "cli/window_program.h"
 #include "event_loop.h"
 #include "kept_settings.h"
 #include "study_window.h"

@@ -12,8 +12,8 @@
 
 #include "icons.h"
 #include "picture_surface.h"
-#include "viewer/devices.h"
-#include "viewer/thumbnail.h"
+#include "viewer/folder_items.h"
+#include "viewer/output_mode.h"
 
 namespace wheatstone::viewer {
 namespace {

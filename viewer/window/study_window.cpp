@@ -1,6 +1,7 @@
 #include "study_window.h"
 
 #include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <QApplication>
 #include <QKeyEvent>
@@ -20,7 +21,7 @@
 #include "cli/failure.h"
 #include "cli/interrupt.h"
 #include "cli/report.h"
-#include "cli/study_run_arguments.h"
+#include "cli/window_program.h"
 #include "event_loop.h"
 #include "viewer/compose.h"
 #include "wheatstone/app/output_folder.h"

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-#include "wheatstone/app/colour_bar_ticks.h"
+#include "wheatstone/app/colour_bar_ticks_internal.h"
 #include "wheatstone/display/lettering.h"
 #include "wheatstone/display/typeset.h"
 #include "wheatstone/error.h"

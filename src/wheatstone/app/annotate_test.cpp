@@ -9,7 +9,7 @@
 #include <cmath>
 
 #include "throws_error.h"
-#include "wheatstone/app/colour_bar_ticks.h"
+#include "wheatstone/app/colour_bar_ticks_internal.h"
 #include "wheatstone/display/typeset.h"
 #include "wheatstone/multiview/colour_bar.h"
 

@@ -1,4 +1,4 @@
-#include "wheatstone/app/colour_bar_ticks.h"
+#include "wheatstone/app/colour_bar_ticks_internal.h"
 
 #include <fmt/format.h>
 

@@ -8,7 +8,7 @@
 
 #include "wheatstone/display/lettering.h"
 #include "wheatstone/error.h"
-#include "wheatstone/files/utf8.h"
+#include "wheatstone/files/text_encoding.h"
 #include "wheatstone/image/mat_opencv.h"
 #include "wheatstone/pictures/read_image.h"
 

@@ -12,7 +12,7 @@
 #include "scenes/moving_picture.h"
 #include "throws_error.h"
 #include "wheatstone/app/rotoscope_film.h"
-#include "wheatstone/app/rotoscope_state_file.h"
+#include "wheatstone/app/rotoscope_state_file_internal.h"
 #include "wheatstone/drawing/draw.h"
 #include "wheatstone/stereo/packed_pair.h"
 #include "wheatstone/synthetic/synthetic_film.h"

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "wheatstone/app/film_output_internal.h"
-#include "wheatstone/app/rotoscope_state_file.h"
+#include "wheatstone/app/rotoscope_state_file_internal.h"
 #include "wheatstone/error.h"
 #include "wheatstone/files/unfinished_outputs.h"
 #include "wheatstone/video/frame_sequence.h"

@@ -73,6 +73,12 @@ void check_drawn(const fs::path& folder, const FilmPlan& plan) {
 
 }  // namespace
 
+FrameRange frames_of_part(const FilmPlan& plan, std::int64_t number, std::int64_t parts) {
+  const std::int64_t segments = count_of_segments(plan), step = plan.frames_per_segment;
+  return {segments * (number - 1) / parts * step + 1,
+          std::min(segments * number / parts * step, count_of_frames(plan))};
+}
+
 DrawnPart draw_film_part(const fs::path& folder, const FilmPlan& plan, FrameRange range, const Progress& progress) {
   if (range.first < 1 || range.last < range.first || range.last > count_of_frames(plan))
     throw Error(ErrorKind::wrong_usage, fmt::format("{}: has the frames 1 to {}, not {} to {}", folder.string(),

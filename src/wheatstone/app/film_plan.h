@@ -51,6 +51,10 @@ struct FrameRange {
   std::int64_t first = 1, last = 1;
 };
 
+/// The frames of one of so many parts of about as many segments each; `last` before `first` where there are more parts
+/// than segments.
+FrameRange frames_of_part(const FilmPlan& plan, std::int64_t number, std::int64_t parts);
+
 struct DrawnPart {
   std::int64_t frames = 0;        ///< that were drawn
   std::int64_t drawn_before = 0;  ///< frames of the range that were there

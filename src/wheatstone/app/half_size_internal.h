@@ -3,7 +3,7 @@
 #include "wheatstone/marks/painting.h"
 #include "wheatstone/marks/style.h"
 #include "wheatstone/matching/match.h"
-#include "wheatstone/stereo/reduced_pair.h"
+#include "wheatstone/stereo/picture_sizes.h"
 #include "wheatstone/stereo/stereo_pair.h"
 
 namespace wheatstone {

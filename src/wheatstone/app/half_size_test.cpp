@@ -6,7 +6,7 @@
 #include "temporary_folder.h"
 #include "wheatstone/app/half_size_internal.h"
 #include "wheatstone/app/rotoscope.h"
-#include "wheatstone/app/rotoscope_state_file.h"
+#include "wheatstone/app/rotoscope_state_file_internal.h"
 #include "wheatstone/measures/consistency.h"
 #include "wheatstone/synthetic/synthetic_film.h"
 

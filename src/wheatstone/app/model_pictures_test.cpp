@@ -1,4 +1,4 @@
-#include "wheatstone/app/model_pictures.h"
+#include "wheatstone/app/render_model_file.h"
 
 #include <gtest/gtest.h>
 

@@ -13,8 +13,7 @@
 #include <utility>
 
 #include "wheatstone/error.h"
-#include "wheatstone/files/followed_path.h"
-#include "wheatstone/files/input_guard.h"
+#include "wheatstone/files/output_paths.h"
 
 namespace wheatstone {
 namespace {

@@ -1,6 +1,6 @@
 // Views of a photograph that is not painted.
 
-#include "wheatstone/app/photograph_views.h"
+#include "wheatstone/app/display_views.h"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 #include "wheatstone/calibration/prepare_pair.h"
 #include "wheatstone/measures/wrong_spots.h"
 #include "wheatstone/progress.h"
-#include "wheatstone/stereo/reduced_pair.h"
+#include "wheatstone/stereo/picture_sizes.h"
 
 namespace wheatstone {
 

@@ -10,7 +10,7 @@
 #include "wheatstone/app/film_output_internal.h"
 #include "wheatstone/app/painted_film.h"
 #include "wheatstone/app/passed_frames_internal.h"
-#include "wheatstone/app/rotoscope_state_file.h"
+#include "wheatstone/app/rotoscope_state_file_internal.h"
 #include "wheatstone/error.h"
 #include "wheatstone/files/struct_fields.h"
 #include "wheatstone/marks/painting_file.h"

@@ -1,4 +1,4 @@
-#include "wheatstone/app/rotoscope_state_file.h"
+#include "wheatstone/app/rotoscope_state_file_internal.h"
 
 #include <limits>
 

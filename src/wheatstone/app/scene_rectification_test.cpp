@@ -9,7 +9,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "wheatstone/app/rotoscope.h"
-#include "wheatstone/app/rotoscope_state_file.h"
+#include "wheatstone/app/rotoscope_state_file_internal.h"
 #include "wheatstone/image/mat_opencv.h"
 #include "wheatstone/measures/film_measures.h"
 #include "wheatstone/synthetic/synthetic_film.h"

@@ -4,17 +4,18 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <mutex>
 
-#include "wheatstone/app/gallery_internal.h"
 #include "wheatstone/depth/convergence.h"
 #include "wheatstone/display/anaglyph.h"
 #include "wheatstone/display/arrange.h"
 #include "wheatstone/display/disparity_picture.h"
 #include "wheatstone/drawing/svg.h"
 #include "wheatstone/error.h"
+#include "wheatstone/files/text_encoding.h"
 #include "wheatstone/files/whole_file.h"
 #include "wheatstone/marks/painting_file.h"
 #include "wheatstone/painting/two_eyes.h"
@@ -22,7 +23,48 @@
 #include "wheatstone/pictures/write_image.h"
 
 namespace wheatstone {
+
 namespace {
+
+struct GalleryPicture {
+  std::string_view file;  ///< without an ending: in the format of the pictures
+  std::string_view caption;
+};
+
+constexpr auto pictures = std::to_array<GalleryPicture>({
+    {"left_photograph", "Photograph, left eye"},
+    {"right_photograph", "Photograph, right eye"},
+    {"left", "Painting, left eye"},
+    {"right", "Painting, right eye"},
+    {"anaglyph", "Anaglyph, for red–cyan glasses"},
+    {"side_by_side", "Side by side, for parallel viewing"},
+    {"disparity.png", "Disparity: near is red, far is blue"},
+    {"left_occlusion.png", "Seen by the left eye only"},
+    {"right_occlusion.png", "Seen by the right eye only"},
+});
+
+constexpr std::string_view gallery_title = "A painting for two eyes";
+constexpr std::string_view gallery_style = R"(
+  body { font: 16px/1.4 sans-serif; margin: 2rem auto; max-width: 80rem; padding: 0 1rem; background: #f6f3ee; color: #222; }
+  main { display: grid; grid-template-columns: repeat(auto-fit, minmax(28rem, 1fr)); gap: 1.5rem; }
+  figure { margin: 0; } img { width: 100%; display: block; background: #ddd; } figcaption { padding: .4rem 0; }
+  pre { background: #fff; padding: 1rem; overflow: auto; }
+)";
+
+/// A page that shows the pictures of a result folder, by their names there, and the report's numbers below them.
+/// `format` is the ending of the pictures that are painted.
+std::string gallery_html(std::string_view format, std::string_view report_json) {
+  std::string page = html_head(gallery_title, gallery_style) + fmt::format("<h1>{}</h1>\n<main>\n", gallery_title);
+  for (const GalleryPicture& picture : pictures) {
+    const bool has_ending = picture.file.find('.') != std::string_view::npos;
+    const std::string file = has_ending ? std::string(picture.file) : fmt::format("{}.{}", picture.file, format);
+    page +=
+        fmt::format("<figure><a href=\"{0}\"><img src=\"{0}\" alt=\"{1}\"></a><figcaption>{1}</figcaption></figure>\n",
+                    file, picture.caption);
+  }
+  page += fmt::format("</main>\n<h2>Numbers</h2>\n<pre>{}</pre>\n</body></html>\n", html_text(report_json));
+  return page;
+}
 
 /// Diffusion curves lie over the drawn view, which is embedded as PNG, so that the document looks like the painting.
 void write_svg(const std::filesystem::path& path, const Painting& painting, ViewPosition view) {

@@ -10,7 +10,6 @@
 
 #include "wheatstone/error.h"
 #include "wheatstone/image/mat_opencv.h"
-#include "wheatstone/image/shrunk_opencv.h"
 #include "wheatstone/pictures/read_image.h"
 
 namespace wheatstone {

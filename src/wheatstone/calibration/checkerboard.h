@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "wheatstone/image/image.h"
-#include "wheatstone/matching/picture_point.h"
+#include "wheatstone/matching/match_features.h"
 #include "wheatstone/progress.h"
 
 namespace wheatstone {

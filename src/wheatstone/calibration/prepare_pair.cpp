@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "wheatstone/calibration/rectify.h"
-#include "wheatstone/calibration/vertical_disparity_internal.h"
+#include "wheatstone/calibration/rectify_internal.h"
 #include "wheatstone/error.h"
 #include "wheatstone/image/mat_opencv.h"
 #include "wheatstone/matching/match_features.h"

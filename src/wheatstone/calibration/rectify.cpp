@@ -11,7 +11,6 @@
 #include "wheatstone/calibration/rectify_internal.h"
 #include "wheatstone/calibration/rectifying_map_internal.h"
 #include "wheatstone/calibration/rectifying_turn_internal.h"
-#include "wheatstone/calibration/vertical_disparity_internal.h"
 #include "wheatstone/calibration/warp_picture_internal.h"
 #include "wheatstone/error.h"
 #include "wheatstone/percentile.h"
@@ -304,6 +303,15 @@ double kept_area(const RectifyingMap& map, int width, int height) {
 double kept_area(const Rectification& rectification) {
   const auto [left, right, width, height] = rectification;
   return std::min({kept_area(left, width, height), kept_area(right, width, height), 1.});
+}
+
+double epipolar_tolerance_px(int longer_side_px) { return std::max(1.0, longer_side_px / 1000.0); }
+
+VerticalDisparity vertical_disparity(std::span<const FeatureMatch> matches) {
+  std::vector<double> differences;
+  for (const FeatureMatch& match : matches) differences.push_back(std::abs(match.left.y - match.right.y));
+  if (differences.empty()) return {};
+  return {percentile(differences, 0.5), percentile(differences, 0.95)};
 }
 
 }  // namespace wheatstone

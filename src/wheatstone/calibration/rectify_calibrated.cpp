@@ -6,9 +6,8 @@
 #include <vector>
 
 #include "wheatstone/calibration/calibration_internal.h"
-#include "wheatstone/calibration/common_window_internal.h"
 #include "wheatstone/calibration/rectify_internal.h"
-#include "wheatstone/calibration/vertical_disparity_internal.h"
+#include "wheatstone/calibration/warp_picture_internal.h"
 #include "wheatstone/error.h"
 #include "wheatstone/image/mat_opencv.h"
 

@@ -20,4 +20,11 @@ bool shows_one_scene(const EpipolarGeometry& geometry, std::size_t matches, cons
 /// Brings the right picture's colours to the left one's where enough `matches`, in the rectified pictures, decide how.
 void match_colours(RectifiedPair& pair, std::span<const FeatureMatch> matches);
 
+/// How far from its epipolar line a match may be, in pictures of this longer side; features are found to about half a
+/// pixel.
+double epipolar_tolerance_px(int longer_side_px);
+
+/// 0 where there are no matches.
+VerticalDisparity vertical_disparity(std::span<const FeatureMatch> matches);
+
 }  // namespace wheatstone

@@ -9,8 +9,8 @@
 
 #include "shared_data.h"
 #include "throws_error.h"
-#include "wheatstone/calibration/common_window_internal.h"
 #include "wheatstone/calibration/rectifying_map_internal.h"
+#include "wheatstone/calibration/warp_picture_internal.h"
 #include "wheatstone/image/mat_opencv.h"
 #include "wheatstone/matching/match.h"
 #include "wheatstone/matching/match_features.h"

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "wheatstone/matching/picture_point.h"
+#include "wheatstone/matching/match_features.h"
 
 namespace wheatstone {
 

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <vector>
 
+#include "wheatstone/calibration/rectify_internal.h"
 #include "wheatstone/calibration/rectifying_turn_internal.h"
-#include "wheatstone/calibration/vertical_disparity_internal.h"
 #include "wheatstone/synthetic/phone_camera.h"
 
 namespace wheatstone::rectifying_turn_test {

@@ -7,6 +7,10 @@
 
 namespace wheatstone {
 
+/// The largest upright rectangle, in pixels, that lies wholly where a mask (CV_8UC1) is not 0. Empty where it is 0
+/// everywhere.
+cv::Rect largest_rectangle_within(const cv::Mat& mask);
+
 /// A photograph as its rectified picture shows it, from (0, 0) on; beyond the photograph its border goes on.
 Image<Rgb8> warped(ImageView<const Rgb8> photograph, const RectifyingMap& map, cv::Size size);
 

@@ -4,7 +4,7 @@
 
 #include "wheatstone/curves/diffusion_lines_internal.h"
 #include "wheatstone/image/grain.h"
-#include "wheatstone/motion/fitting_scene.h"
+#include "wheatstone/motion/film_frame.h"
 #include "wheatstone/stereo/occlusion.h"
 
 namespace wheatstone {

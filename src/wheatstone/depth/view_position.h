@@ -30,4 +30,15 @@ inline constexpr ViewPosition left_eye{-0.5f};
 inline constexpr ViewPosition central_view{0.f};  ///< the cyclopean view, between the eyes
 inline constexpr ViewPosition right_eye{0.5f};
 
+/// View positions, both ends included; those of the eyes and between them unless told.
+struct ViewRange {
+  ViewPosition first = left_eye;
+  ViewPosition last = right_eye;
+  constexpr bool contains(ViewPosition view) const { return view >= first && view <= last; }
+  friend bool operator==(const ViewRange&, const ViewRange&) = default;
+};
+
+/// From any view: what hides a mark that may be drawn everywhere are the surfaces before it.
+inline constexpr ViewRange all_views{ViewPosition(-1e6f), ViewPosition(1e6f)};
+
 }  // namespace wheatstone

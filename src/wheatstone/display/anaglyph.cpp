@@ -9,7 +9,7 @@
 #include <cstdint>
 
 #include "wheatstone/display/anaglyph_internal.h"
-#include "wheatstone/image/srgb.h"
+#include "wheatstone/image/colour.h"
 
 namespace wheatstone {
 namespace {

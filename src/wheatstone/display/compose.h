@@ -6,7 +6,7 @@
 #include "wheatstone/display/anaglyph.h"
 #include "wheatstone/display/lenticular.h"
 #include "wheatstone/display/quilt.h"
-#include "wheatstone/gpu/device.h"
+#include "wheatstone/gpu/gpu.h"
 #include "wheatstone/image/image.h"
 #include "wheatstone/stereo/stereo_layout.h"
 

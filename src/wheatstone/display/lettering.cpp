@@ -15,7 +15,7 @@
 #include <tuple>
 
 #include "wheatstone/error.h"
-#include "wheatstone/files/utf8.h"
+#include "wheatstone/files/text_encoding.h"
 
 namespace wheatstone {
 namespace {

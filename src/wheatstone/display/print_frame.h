@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "wheatstone/image/image.h"
+#include "wheatstone/stereo/stereo_pair.h"
 
 namespace wheatstone {
 
@@ -49,5 +50,19 @@ bool has_print_frame(const PrintFrame& frame);
 /// A picture with its border, and its caption in the lower part of it, which grows where the caption needs that. A
 /// letter's height is a 28th of the picture's, at least 12 pixels. Throws as set_text.
 Image<Rgb8> with_border_and_caption(ImageView<const Rgb8> picture, const PrintFrame& frame);
+
+/// Widths of black strips, as put_floating_window takes them.
+struct FloatingWindow {
+  int left_px = 0;   ///< at the left edge of the left eye's picture
+  int right_px = 0;  ///< at the right edge of the right eye's picture
+  friend bool operator==(const FloatingWindow&, const FloatingWindow&) = default;
+};
+
+/// The narrowest strips with which the frame cuts nothing before the screen for one eye only. Disparity 0 is the
+/// screen: what lies before it (disparity above 0) at the left edge of the right eye's picture lies further to the
+/// right in the left eye's, which therefore shows more of it; the left strip covers what the right eye does not see of
+/// it. The right strip does the same of the right eye's picture. `specks` is the share of the rows, at either side,
+/// that may need more.
+FloatingWindow floating_window_for(const StereoGeometryView& geometry, double specks = 0.01);
 
 }  // namespace wheatstone

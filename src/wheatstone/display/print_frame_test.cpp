@@ -8,7 +8,6 @@
 
 #include "throws_error.h"
 #include "wheatstone/display/arrange.h"
-#include "wheatstone/display/floating_window.h"
 #include "wheatstone/display/lettering.h"
 #include "wheatstone/synthetic/synthetic_still.h"
 

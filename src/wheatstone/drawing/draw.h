@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "wheatstone/gpu/device.h"
+#include "wheatstone/gpu/gpu.h"
 #include "wheatstone/marks/painting.h"
 #include "wheatstone/marks/slicing.h"
 

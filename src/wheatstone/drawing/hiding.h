@@ -5,7 +5,6 @@
 
 #include "wheatstone/depth/view_position.h"
 #include "wheatstone/image/image.h"
-#include "wheatstone/marks/view_range.h"
 
 namespace wheatstone {
 

@@ -4,7 +4,7 @@
 
 #include "wheatstone/drawing/prepared_painting_internal.h"
 #include "wheatstone/drawing/svg_document_internal.h"
-#include "wheatstone/files/base64.h"
+#include "wheatstone/files/text_encoding.h"
 
 namespace wheatstone {
 namespace {

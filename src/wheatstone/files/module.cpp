@@ -2,13 +2,22 @@
 
 #include <dlfcn.h>
 #include <fmt/format.h>
+#include <sys/mman.h>
 
 #include <new>
 
 #include "wheatstone/error.h"
-#include "wheatstone/files/address_space.h"
 
 namespace wheatstone {
+
+void require_address_space(std::size_t bytes) {
+  if (bytes == 0) return;
+  // Addresses alone: without access there is no memory behind them.
+  void* const place = ::mmap(nullptr, bytes, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  if (place == MAP_FAILED) throw std::bad_alloc();
+  ::munmap(place, bytes);
+}
+
 namespace {
 
 /// Says in the loader's words why a library is not loaded. The words tell a lack of memory from everything else: the

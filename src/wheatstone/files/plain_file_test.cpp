@@ -1,4 +1,4 @@
-#include "wheatstone/files/plain_file.h"
+#include "wheatstone/files/whole_file.h"
 
 #include <gtest/gtest.h>
 #include <sys/socket.h>

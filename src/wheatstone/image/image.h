@@ -84,6 +84,12 @@ class Image {
   int height_ = 0;
 };
 
+/// In pixels.
+struct PictureSize {
+  int width = 0, height = 0;
+  friend bool operator==(const PictureSize&, const PictureSize&) = default;
+};
+
 /// True where two images or views have the same width and height.
 template <class A, class B>
 bool same_size(const A& a, const B& b) {

@@ -2,8 +2,11 @@
 
 // Wheatstone's images as OpenCV matrices and back, without a copy. For .cpp files, never installed.
 
+#include <algorithm>
 #include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
 
+#include "wheatstone/image/colour.h"
 #include "wheatstone/image/image.h"
 
 namespace wheatstone {
@@ -32,6 +35,32 @@ cv::Mat as_mat(Image<Pixel>& image) {
 template <class Pixel>
 cv::Mat as_mat(const Image<Pixel>& image) {
   return as_mat(image.view());
+}
+
+/// A copy scaled by `scale` in 0..1 along both sides, each of which keeps at least one pixel: of a narrow strip, a side
+/// would round to none.
+inline cv::Mat shrunk(const cv::Mat& picture, double scale, int interpolation = cv::INTER_AREA) {
+  const auto side = [scale](int px) { return cv::saturate_cast<int>(px * scale); };
+  cv::Mat small;
+  if (side(picture.cols) > 0 && side(picture.rows) > 0) {
+    cv::resize(picture, small, {}, scale, scale, interpolation);
+  } else {
+    cv::resize(picture, small, {std::max(side(picture.cols), 1), std::max(side(picture.rows), 1)}, 0, 0, interpolation);
+  }
+  return small;
+}
+
+/// The L*, a* and b* of a picture, 8-bit RGB, as three channels of 32-bit float.
+inline cv::Mat cielab_of(const cv::Mat& rgb) {
+  cv::Mat values(rgb.size(), CV_32FC3);
+  for (int y = 0; y < rgb.rows; ++y) {
+    for (int x = 0; x < rgb.cols; ++x) {
+      const auto& colour = rgb.at<cv::Vec3b>(y, x);
+      const Cielab value = cielab_of(Rgb8{colour[0], colour[1], colour[2]});
+      values.at<cv::Vec3f>(y, x) = {value.lightness, value.a, value.b};
+    }
+  }
+  return values;
 }
 
 }  // namespace wheatstone

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <limits>
 
-#include "wheatstone/marks/deflated.h"
+#include "wheatstone/files/deflate.h"
 #include "wheatstone/marks/disparity_code.h"
 #include "wheatstone/marks/surfaces.h"
 

@@ -13,8 +13,8 @@
 
 #include "painting_generated.h"
 #include "wheatstone/error.h"
+#include "wheatstone/files/deflate.h"
 #include "wheatstone/files/whole_file.h"
-#include "wheatstone/marks/deflated.h"
 #include "wheatstone/marks/disparity_code.h"
 
 namespace wheatstone {

@@ -15,7 +15,7 @@
 #include "wheatstone/drawing/draw.h"
 #include "wheatstone/drawing/svg.h"
 #include "wheatstone/error.h"
-#include "wheatstone/marks/deflated.h"
+#include "wheatstone/files/deflate.h"
 
 namespace wheatstone::painting_file_test {
 

@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
+#include "wheatstone/depth/view_position.h"
 #include "wheatstone/image/image.h"
 #include "wheatstone/marks/brush.h"
-#include "wheatstone/marks/view_range.h"
 
 namespace wheatstone {
 

@@ -2,8 +2,8 @@
 
 #include <vector>
 
+#include "wheatstone/depth/view_position.h"
 #include "wheatstone/image/image.h"
-#include "wheatstone/marks/view_range.h"
 
 namespace wheatstone {
 

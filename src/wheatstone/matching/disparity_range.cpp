@@ -10,12 +10,10 @@
 
 #include "wheatstone/depth/convergence.h"
 #include "wheatstone/image/mat_opencv.h"
-#include "wheatstone/image/shrunk_opencv.h"
 #include "wheatstone/matching/binary_descriptors_internal.h"
 #include "wheatstone/matching/confirm_internal.h"
 #include "wheatstone/matching/match.h"
 #include "wheatstone/matching/match_internal.h"
-#include "wheatstone/matching/seen_disparities_internal.h"
 #include "wheatstone/matching/trusted_places_internal.h"
 
 namespace wheatstone {

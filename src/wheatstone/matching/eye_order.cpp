@@ -9,9 +9,7 @@
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
-#include "wheatstone/image/cielab_opencv.h"
 #include "wheatstone/image/mat_opencv.h"
-#include "wheatstone/image/shrunk_opencv.h"
 #include "wheatstone/matching/match_internal.h"
 #include "wheatstone/matching/plain_sgbm_opencv.h"
 

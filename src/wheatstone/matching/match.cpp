@@ -251,7 +251,7 @@ Image<Rgb8> resized(const Image<Rgb8>& picture, double scale) {
   return result;
 }
 
-Image<float> enlarged(const Image<float>& disparity, int width, int height) {
+Image<float> at_size(const Image<float>& disparity, int width, int height) {
   Image<float> result(width, height);
   cv::Mat target = as_mat(result);
   cv::resize(as_mat(disparity), target, target.size(), 0, 0, cv::INTER_NEAREST);
@@ -315,7 +315,7 @@ std::optional<MatchedPair> match_if_any(const StereoPair& pair, const MatchOptio
   matched->range = range;
   if (scale != 1) {
     const int width = pair.left.width(), height = pair.left.height();
-    matched->geometry = geometry_from_left(enlarged(matched->geometry.left_disparity, width, height));
+    matched->geometry = geometry_from_left(at_size(matched->geometry.left_disparity, width, height));
     Image<std::uint8_t> confidence(width, height);
     cv::Mat target = as_mat(confidence);
     cv::resize(as_mat(matched->left_confidence), target, target.size(), 0, 0, cv::INTER_NEAREST);

@@ -10,9 +10,8 @@
 #include <vector>
 
 #include "wheatstone/image/mat_opencv.h"
-#include "wheatstone/image/shrunk_opencv.h"
 #include "wheatstone/matching/map_flaws_internal.h"
-#include "wheatstone/matching/seen_disparities_internal.h"
+#include "wheatstone/matching/match_internal.h"
 #include "wheatstone/percentile.h"
 
 namespace wheatstone {

@@ -9,7 +9,6 @@
 #include <opencv2/imgproc.hpp>
 
 #include "wheatstone/image/mat_opencv.h"
-#include "wheatstone/image/shrunk_opencv.h"
 #include "wheatstone/matching/nearest_descriptors_internal.h"
 
 namespace wheatstone {

@@ -4,10 +4,15 @@
 #include <span>
 #include <vector>
 
-#include "wheatstone/matching/picture_point.h"
 #include "wheatstone/stereo/stereo_pair.h"
 
 namespace wheatstone {
+
+/// A place in a picture, in pixels: x to the right, y down, the centre of the first pixel at (½, ½).
+struct PicturePoint {
+  double x = 0;
+  double y = 0;
+};
 
 /// The same small thing seen in both pictures.
 struct FeatureMatch {

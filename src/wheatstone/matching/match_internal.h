@@ -2,8 +2,10 @@
 
 #include <limits>
 #include <opencv2/core.hpp>
+#include <optional>
 
 #include "wheatstone/matching/match.h"
+#include "wheatstone/stereo/stereo_pair.h"
 
 namespace wheatstone {
 
@@ -22,5 +24,13 @@ Image<float> match_scan_lines(const cv::Mat& own, const cv::Mat& other, const Di
 
 /// The same by the network in `options.model`. Throws Error{bad_input}.
 Image<float> match_with_network(const cv::Mat& own, const cv::Mat& other, const MatchOptions& options);
+
+/// Disparities of a pair, in its pixels, as far as few and sure matches show them.
+struct SeenDisparities {
+  float least = 0, largest = 0;
+};
+
+/// None where the pair gives nothing to go by.
+std::optional<SeenDisparities> find_seen_disparities(const StereoPair& pair);
 
 }  // namespace wheatstone

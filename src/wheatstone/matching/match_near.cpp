@@ -103,7 +103,7 @@ Image<float> at_size(const Image<float>& disparity, cv::Size size, double scale)
   return result;
 }
 
-cv::Mat reduced(const Image<Rgb8>& picture, cv::Size size) {
+cv::Mat shrunk_to(const Image<Rgb8>& picture, cv::Size size) {
   cv::Mat small = as_mat(picture);
   if (small.size() != size) cv::resize(small, small, size, 0, 0, cv::INTER_AREA);
   return small;
@@ -121,7 +121,7 @@ std::optional<MatchedPair> match_near(const StereoPair& pair, const Image<float>
   constexpr int least_side_px = 32;  // of which there is a copy
   if (std::min(size.width, size.height) < least_side_px) return {};
   constexpr double coarsest = 0.5;
-  const std::vector<Level> levels = levels_of(reduced(pair.left, size), reduced(pair.right, size), range, coarsest);
+  const std::vector<Level> levels = levels_of(shrunk_to(pair.left, size), shrunk_to(pair.right, size), range, coarsest);
   const Level& level = levels.front();
   Guess guess{coarse_guess(levels, range, options), {}};
   if (guess.disparity.empty()) return {};

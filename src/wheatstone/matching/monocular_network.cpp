@@ -14,7 +14,6 @@
 #include "wheatstone/files/whole_file.h"
 #include "wheatstone/image/mat_opencv.h"
 #include "wheatstone/matching/network_inputs_internal.h"
-#include "wheatstone/matching/network_picture_internal.h"
 
 namespace wheatstone {
 namespace {

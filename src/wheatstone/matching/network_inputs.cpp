@@ -1,11 +1,12 @@
-// ONNX files are protocol buffers (onnx.proto3): fields of a number and a wire type, one behind the other, messages
-// within messages. Only what names the graph's inputs is read.
-
 #include <algorithm>
+#include <opencv2/dnn.hpp>
 #include <optional>
 #include <set>
 
 #include "wheatstone/matching/network_inputs_internal.h"
+
+// ONNX files are protocol buffers (onnx.proto3): fields of a number and a wire type, one behind the other, messages
+// within messages. Only what names the graph's inputs is read.
 
 namespace wheatstone {
 namespace {
@@ -108,6 +109,16 @@ std::vector<NetworkInput> network_inputs(std::string_view bytes) {
     }
   }
   return inputs;
+}
+
+cv::Mat network_picture(const cv::Mat& picture, NetworkValues values) {
+  cv::Mat numbers;
+  picture.convertTo(numbers, CV_32FC3, values == NetworkValues::to_255 ? 1 : 1 / 255.0);
+  if (values == NetworkValues::imagenet) {
+    cv::subtract(numbers, cv::Scalar(0.485, 0.456, 0.406), numbers);
+    cv::divide(numbers, cv::Scalar(0.229, 0.224, 0.225), numbers);
+  }
+  return cv::dnn::blobFromImage(numbers);
 }
 
 }  // namespace wheatstone

@@ -2,9 +2,12 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <opencv2/core.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "wheatstone/matching/match.h"
 
 namespace wheatstone {
 
@@ -21,5 +24,8 @@ inline constexpr std::int64_t most_network_side_px = 1 << 14;
 /// The inputs of an ONNX file's graph that are not weights, in their order. Empty where the bytes are no ONNX file with
 /// a graph: damaged, cut off, or something else.
 std::vector<NetworkInput> network_inputs(std::string_view bytes);
+
+/// A picture (CV_8UC3, red first) of the size that a network takes, as its input 1x3xHxW.
+cv::Mat network_picture(const cv::Mat& picture, NetworkValues values);
 
 }  // namespace wheatstone

@@ -6,7 +6,7 @@
 
 #include "scenes/test_photographs.h"
 #include "wheatstone/matching/eye_order.h"
-#include "wheatstone/stereo/reduced_pair.h"
+#include "wheatstone/stereo/picture_sizes.h"
 
 namespace wheatstone::not_a_pair_test {
 

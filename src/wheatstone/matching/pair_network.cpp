@@ -10,7 +10,6 @@
 #include "wheatstone/error.h"
 #include "wheatstone/files/whole_file.h"
 #include "wheatstone/matching/network_inputs_internal.h"
-#include "wheatstone/matching/network_picture_internal.h"
 
 namespace wheatstone {
 namespace {

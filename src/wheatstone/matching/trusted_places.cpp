@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "wheatstone/image/mat_opencv.h"
-#include "wheatstone/image/shrunk_opencv.h"
 
 namespace wheatstone {
 namespace {

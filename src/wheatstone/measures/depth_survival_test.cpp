@@ -1,4 +1,4 @@
-#include "wheatstone/measures/depth_survival.h"
+#include "wheatstone/measures/consistency.h"
 
 #include <gtest/gtest.h>
 

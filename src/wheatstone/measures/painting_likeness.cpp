@@ -8,7 +8,6 @@
 #include <opencv2/imgproc.hpp>
 
 #include "wheatstone/error.h"
-#include "wheatstone/image/cielab_opencv.h"
 #include "wheatstone/image/mat_opencv.h"
 
 namespace wheatstone {

@@ -7,7 +7,6 @@
 #include "shared_data.h"
 #include "wheatstone/image/mat_opencv.h"
 #include "wheatstone/measures/consistency.h"
-#include "wheatstone/measures/depth_survival.h"
 #include "wheatstone/pictures/disparity_file.h"
 #include "wheatstone/pictures/read_image.h"
 #include "wheatstone/synthetic/synthetic_still.h"

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "wheatstone/image/srgb.h"
+#include "wheatstone/image/colour.h"
 #include "wheatstone/percentile.h"
 
 namespace wheatstone {

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "wheatstone/image/srgb.h"
+#include "wheatstone/image/colour.h"
 
 namespace wheatstone::view_measures_test {
 

@@ -9,9 +9,8 @@
 #include <opencv2/imgproc.hpp>
 
 #include "wheatstone/error.h"
+#include "wheatstone/image/colour.h"
 #include "wheatstone/image/mat_opencv.h"
-#include "wheatstone/image/oklab.h"
-#include "wheatstone/image/srgb.h"
 
 namespace wheatstone {
 namespace {

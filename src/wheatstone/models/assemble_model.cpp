@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "wheatstone/error.h"
-#include "wheatstone/image/srgb.h"
+#include "wheatstone/image/colour.h"
 
 namespace wheatstone {
 namespace {

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "wheatstone/error.h"
-#include "wheatstone/files/plain_file.h"
+#include "wheatstone/files/whole_file.h"
 #include "wheatstone/models/assemble_model_internal.h"
 #include "wheatstone/models/import_in_child_internal.h"
 #include "wheatstone/models/model_format_internal.h"

@@ -3,7 +3,6 @@
 #include <opencv2/imgproc.hpp>
 
 #include "wheatstone/image/mat_opencv.h"
-#include "wheatstone/image/shrunk_opencv.h"
 #include "wheatstone/matching/pair_network_opencv.h"
 #include "wheatstone/motion/flow_network_internal.h"
 

@@ -7,7 +7,7 @@
 #include <array>
 #include <cmath>
 
-#include "wheatstone/image/srgb.h"
+#include "wheatstone/image/colour.h"
 #include "wheatstone/measures/view_measures.h"
 #include "wheatstone/multiview/front_to_back_internal.h"
 #include "wheatstone/multiview/render.h"

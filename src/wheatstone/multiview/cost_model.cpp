@@ -33,9 +33,9 @@ Costs estimate_costs(const Workload& workload) {
   return costs;
 }
 
-Choice choose_method(const Workload& workload) {
+MethodChoice choose_method(const Workload& workload) {
   const Costs costs = estimate_costs(workload);
-  Choice choice;
+  MethodChoice choice;
   double least = costs.exact;
   if (costs.incremental < least) {
     choice.method = Method::incremental;
@@ -73,7 +73,7 @@ Costs estimate_gpu_costs(const Workload& workload) {
   return costs;
 }
 
-Choice choose_gpu_method(const Workload& workload) {
+MethodChoice choose_gpu_method(const Workload& workload) {
   const Costs costs = estimate_gpu_costs(workload);
   const bool layered = costs.layered < costs.incremental;
   return {.method = layered ? Method::layered : Method::incremental,

@@ -26,14 +26,14 @@ struct Costs {
 Costs estimate_costs(const Workload& workload);
 
 /// The fastest method, and the reason in words.
-struct Choice {
+struct MethodChoice {
   Method method = Method::exact;
   std::string reason;
 };
-Choice choose_method(const Workload& workload);
+MethodChoice choose_method(const Workload& workload);
 
 /// The same on a graphics processor, which has no exact method.
 Costs estimate_gpu_costs(const Workload& workload);
-Choice choose_gpu_method(const Workload& workload);
+MethodChoice choose_gpu_method(const Workload& workload);
 
 }  // namespace wheatstone

@@ -11,7 +11,7 @@
 #include "project_splats_source.h"
 #include "wheatstone/error.h"
 #include "wheatstone/gpu/program.h"
-#include "wheatstone/image/srgb.h"
+#include "wheatstone/image/colour.h"
 #include "wheatstone/multiview/gathered_light_internal.h"
 #include "wheatstone/multiview/gpu_lists_internal.h"
 #include "wheatstone/multiview/shine_internal.h"

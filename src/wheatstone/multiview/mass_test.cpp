@@ -10,7 +10,7 @@
 #include <numbers>
 
 #include "stage_of_kernels.h"
-#include "wheatstone/image/srgb.h"
+#include "wheatstone/image/colour.h"
 #include "wheatstone/measures/view_measures.h"
 #include "wheatstone/multiview/make_slices.h"
 #include "wheatstone/multiview/render.h"

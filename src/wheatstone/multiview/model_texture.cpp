@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "wheatstone/image/srgb.h"
+#include "wheatstone/image/colour.h"
 
 namespace wheatstone {
 namespace {

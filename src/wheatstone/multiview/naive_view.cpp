@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "wheatstone/image/srgb.h"
+#include "wheatstone/image/colour.h"
 #include "wheatstone/multiview/slice_stack.h"
 
 namespace wheatstone {

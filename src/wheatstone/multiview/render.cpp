@@ -135,13 +135,14 @@ Workload workload_of(const CloudStatistics& statistics, const Scene& scene, cons
           .absorbs = scene.splat_style.blend == Blend::over};
 }
 
-Choice choose(const CloudStatistics& statistics, const Scene& scene, const Rig& rig, const RenderOptions& options) {
+MethodChoice choose(const CloudStatistics& statistics, const Scene& scene, const Rig& rig,
+                    const RenderOptions& options) {
   if (options.method != Method::automatic) return {options.method, "as asked for"};
   if (options.focus) return {Method::layered, "layered: the focus moves depth planes"};
   return choose_method(workload_of(statistics, scene, rig, options));
 }
 
-Choice choose_on_gpu(const RenderJob& job, const RenderOptions& options) {
+MethodChoice choose_on_gpu(const RenderJob& job, const RenderOptions& options) {
   if (options.method != Method::automatic) return {options.method, "as asked for"};
   if (options.opaque) return {Method::incremental, "on a graphics processor, opaque: incremental"};
   if (options.focus) return {Method::layered, "layered: the focus moves depth planes"};
@@ -157,7 +158,7 @@ bool rendered_on_gpu(const RenderJob& job, std::span<const ImageView<Rgb8>> pict
   if (!chooses_gpu(options.device, options.ranks.alone() && work >= worthwhile)) return false;
   return done_on_gpu(options.device, [&] {
     check_gpu_can(job.scene, options);
-    const Choice choice = choose_on_gpu(job, options);
+    const MethodChoice choice = choose_on_gpu(job, options);
     if (choice.method == Method::layered) {
       const DepthPlanes planes = planes_of(job.scene.mapping, options.planes, span_of(job.rig));
       render_layered_on_gpu(job, planes, options.filter, pictures);
@@ -209,7 +210,7 @@ RenderedViews render(const Chunks& chunks, const CloudStatistics& statistics, co
   RenderedViews result;
   result.tone = tone_found(statistics, scene, rig, options);
   result.exposure = result.tone.exposure;
-  const Choice choice = choose(statistics, scene, rig, options);
+  const MethodChoice choice = choose(statistics, scene, rig, options);
   result.method = choice.method;
   result.reason = choice.reason;
   result.views.reserve(rig.positions.size());

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "wheatstone/depth/rig.h"
-#include "wheatstone/gpu/device.h"
+#include "wheatstone/gpu/gpu.h"
 #include "wheatstone/image/image.h"
 #include "wheatstone/multiview/chunks.h"
 #include "wheatstone/multiview/focus.h"

@@ -13,7 +13,7 @@
 #include <optional>
 
 #include "wheatstone/error.h"
-#include "wheatstone/image/srgb.h"
+#include "wheatstone/image/colour.h"
 #include "wheatstone/multiview/model_shading_internal.h"
 #include "wheatstone/multiview/triangle_band_internal.h"
 

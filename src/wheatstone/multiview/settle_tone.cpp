@@ -9,7 +9,7 @@ namespace wheatstone {
 namespace {
 
 /// A scene and rig of a smaller picture of some of the particles.
-struct Reduced {
+struct SampledScene {
   Scene scene;
   Rig rig;
   float light = 1;  ///< that a unit of the small picture's light is in the whole one
@@ -17,13 +17,13 @@ struct Reduced {
 
 /// A quarter of the width and height, so that a pixel holds at least as many particles as in the whole picture. They
 /// are wider, as the sample is thinner. With few particles in the thesis's look, the picture keeps its size.
-Reduced reduced(const Scene& scene, const CloudStatistics& statistics, const Rig& rig) {
+SampledScene sampled_scene(const Scene& scene, const CloudStatistics& statistics, const Rig& rig) {
   const auto taken = static_cast<float>(std::max<std::size_t>(statistics.sample.cloud().size(), 1));
   const float every = static_cast<float>(statistics.count) / taken;
   const bool mass = scene.splat_style.look == Look::mass;
   const float scale =
       mass || every > 1 ? std::max(0.25f, 16.f / static_cast<float>(std::min(rig.width, rig.height))) : 1.f;
-  Reduced small{scene, rig};
+  SampledScene small{scene, rig};
   small.scene.shine = {};
   if (scale < 1) {
     small.rig.width = static_cast<int>(std::ceil(static_cast<float>(rig.width) * scale));
@@ -83,7 +83,7 @@ ToneSettings settled(const ToneSettings& settings, const Scene& scene, const Clo
   const bool thesis = found.look == Look::thesis;
   const bool known = thesis ? !std::isnan(found.exposure) : !std::isnan(found.least) && !std::isnan(found.most);
   if (known) return found;
-  const Reduced small = reduced(scene, statistics, rig);
+  const SampledScene small = sampled_scene(scene, statistics, rig);
   const Cloud sample = spread(statistics.sample.cloud(), statistics.count);
   ToneSettings any = found;
   any.exposure = any.most = 1;

@@ -20,7 +20,16 @@ class SliceBand {
  public:
   SliceBand() = default;
   /// Planes that hide those behind them have a fourth channel, alpha.
-  SliceBand(int left, int right, int rows, int planes, bool hides = false);
+  SliceBand(int left, int right, int rows, int planes, bool hides = false)
+      : left_(left),
+        right_(right),
+        rows_(rows),
+        planes_(planes),
+        channels_(hides ? 4 : 3),
+        stride_(LightBand(left, right, 0, LightBand::most_channels).width_with_margins()),
+        // A vector may be read from the last pixel on.
+        values_(static_cast<std::size_t>(stride_) * channels_ * rows * planes + 16),
+        lit_(static_cast<std::size_t>(planes) * rows_) {}
 
   int left() const { return left_; }
   int right() const { return right_; }

@@ -20,8 +20,8 @@
 #include <vector>
 
 #include "wheatstone/error.h"
-#include "wheatstone/files/plain_file.h"
 #include "wheatstone/files/temporary_file.h"
+#include "wheatstone/files/whole_file.h"
 #include "wheatstone/pictures/picture_file.h"
 
 namespace wheatstone {

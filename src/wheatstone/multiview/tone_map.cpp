@@ -3,8 +3,7 @@
 #include <bit>
 #include <cmath>
 
-#include "wheatstone/image/oklab.h"
-#include "wheatstone/image/srgb.h"
+#include "wheatstone/image/colour.h"
 #include "wheatstone/multiview/colour_bar.h"
 #include "wheatstone/multiview/tone_map_internal.h"
 

@@ -3,7 +3,7 @@
 #include <optional>
 #include <span>
 
-#include "wheatstone/gpu/device.h"
+#include "wheatstone/gpu/gpu.h"
 #include "wheatstone/marks/painting.h"
 #include "wheatstone/marks/style.h"
 #include "wheatstone/progress.h"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "wheatstone/gpu/device.h"
+#include "wheatstone/gpu/gpu.h"
 #include "wheatstone/painting/plan_painting.h"
 
 namespace wheatstone {

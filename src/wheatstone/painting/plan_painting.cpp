@@ -11,7 +11,7 @@
 #include "wheatstone/depth/warp_row.h"
 #include "wheatstone/drawing/relief.h"
 #include "wheatstone/error.h"
-#include "wheatstone/motion/fitting_scene.h"
+#include "wheatstone/motion/film_frame.h"
 #include "wheatstone/painting/repair_internal.h"
 #include "wheatstone/stereo/view_scale.h"
 #include "wheatstone/strokes/layer_plan.h"

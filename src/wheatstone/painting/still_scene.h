@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "wheatstone/marks/view_range.h"
+#include "wheatstone/depth/view_position.h"
 #include "wheatstone/stereo/outer_view.h"
 
 namespace wheatstone {

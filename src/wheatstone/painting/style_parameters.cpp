@@ -12,7 +12,7 @@
 
 #include "wheatstone/error.h"
 #include "wheatstone/files/whole_file.h"
-#include "wheatstone/image/colour_code.h"
+#include "wheatstone/image/colour.h"
 #include "wheatstone/painting/read_brush.h"
 
 namespace wheatstone {

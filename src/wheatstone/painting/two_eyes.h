@@ -4,7 +4,7 @@
 
 #include "wheatstone/depth/convergence.h"
 #include "wheatstone/painting/present.h"
-#include "wheatstone/stereo/reduced_pair.h"
+#include "wheatstone/stereo/picture_sizes.h"
 
 namespace wheatstone {
 

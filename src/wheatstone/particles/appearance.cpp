@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "wheatstone/error.h"
-#include "wheatstone/image/srgb.h"
+#include "wheatstone/image/colour.h"
 
 namespace wheatstone {
 namespace {

@@ -10,7 +10,7 @@
 #include <system_error>
 
 #include "wheatstone/error.h"
-#include "wheatstone/files/plain_file.h"
+#include "wheatstone/files/whole_file.h"
 #include "wheatstone/particles/columns_internal.h"
 #include "wheatstone/particles/formats_internal.h"
 

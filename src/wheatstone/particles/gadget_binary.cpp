@@ -13,7 +13,7 @@
 #include <numeric>
 
 #include "wheatstone/error.h"
-#include "wheatstone/files/plain_file.h"
+#include "wheatstone/files/whole_file.h"
 #include "wheatstone/particles/columns_internal.h"
 #include "wheatstone/particles/formats_internal.h"
 #include "wheatstone/particles/gas_temperature_internal.h"

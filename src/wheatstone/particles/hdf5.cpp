@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "wheatstone/error.h"
-#include "wheatstone/files/plain_file.h"
+#include "wheatstone/files/whole_file.h"
 #include "wheatstone/particles/hdf5_internal.h"
 #include "wheatstone/particles/particle_rows_internal.h"
 

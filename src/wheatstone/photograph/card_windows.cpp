@@ -9,8 +9,7 @@
 #include <vector>
 
 #include "wheatstone/image/mat_opencv.h"
-#include "wheatstone/image/shrunk_opencv.h"
-#include "wheatstone/matching/block_agreement.h"
+#include "wheatstone/matching/not_a_pair.h"
 #include "wheatstone/photograph/card_windows_internal.h"
 
 namespace wheatstone {

@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
-#include "wheatstone/matching/block_agreement.h"
 #include "wheatstone/matching/eye_order.h"
+#include "wheatstone/matching/not_a_pair.h"
 #include "wheatstone/pictures/picture_file.h"
 #include "wheatstone/stereo/packed_pair.h"
 

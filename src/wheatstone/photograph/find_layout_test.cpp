@@ -6,7 +6,7 @@
 
 #include "scenes/test_photographs.h"
 #include "wheatstone/image/mat_opencv.h"
-#include "wheatstone/matching/block_agreement.h"
+#include "wheatstone/matching/not_a_pair.h"
 
 namespace wheatstone::find_layout_test {
 

@@ -16,9 +16,9 @@
 #include "wheatstone/photograph/find_layout.h"
 #include "wheatstone/photograph/pairs_by_name_internal.h"
 #include "wheatstone/photograph/pairs_by_time_internal.h"
-#include "wheatstone/pictures/describe_image.h"
 #include "wheatstone/pictures/picture_file.h"
-#include "wheatstone/stereo/common_part.h"
+#include "wheatstone/pictures/read_image.h"
+#include "wheatstone/stereo/picture_sizes.h"
 
 namespace wheatstone {
 namespace {

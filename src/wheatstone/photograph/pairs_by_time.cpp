@@ -13,8 +13,7 @@
 #include "wheatstone/photograph/pairs_by_time_internal.h"
 #include "wheatstone/photograph/photograph_notes.h"
 #include "wheatstone/pictures/read_image.h"
-#include "wheatstone/stereo/common_part.h"
-#include "wheatstone/stereo/reduced_pair.h"
+#include "wheatstone/stereo/picture_sizes.h"
 
 namespace wheatstone {
 namespace {
@@ -44,7 +43,7 @@ struct Taken {
 
 /// Why two pictures are no sure pair; empty where they are, then left and right are in their order.
 std::string wrong_with(StereoPair pair, bool& is_swapped) {
-  const ImageSize left{pair.left.width(), pair.left.height()}, right{pair.right.width(), pair.right.height()};
+  const PictureSize left{pair.left.width(), pair.left.height()}, right{pair.right.width(), pair.right.height()};
   if (left != right && !differ_by_few(left, right)) return "has another size";
   frame_common_part(pair);
   constexpr int longest_px = 960;

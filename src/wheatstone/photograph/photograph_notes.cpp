@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "wheatstone/error.h"
-#include "wheatstone/files/utf8.h"
+#include "wheatstone/files/text_encoding.h"
 #include "wheatstone/photograph/jpeg_segments_internal.h"
 #include "wheatstone/photograph/xmp_internal.h"
 #include "wheatstone/pictures/heif_pictures.h"

@@ -11,7 +11,6 @@
 #include "scenes/xmp_pictures.h"
 #include "temporary_folder.h"
 #include "wheatstone/photograph/write_views.h"
-#include "wheatstone/pictures/describe_image.h"
 #include "wheatstone/pictures/read_image.h"
 #include "wheatstone/pictures/write_image.h"
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <string_view>
 
 #include "wheatstone/image/image.h"
@@ -10,5 +11,9 @@ namespace wheatstone {
 /// the picture alone where there is no profile, it is damaged, describes other channels (a print's CMYK, which was
 /// converted already), or says sRGB but for rounding. `grey`: the picture came with one channel.
 void bring_to_srgb(Image<Rgb8>& picture, std::string_view profile, bool grey);
+
+/// The ICC profile in the bytes of a PNG (chunk iCCP), WebP (chunk ICCP) or HEIF file, whose decoders do not hand it
+/// on; empty where there is none, or a damaged one, and for all other kinds of file.
+std::string embedded_profile(std::string_view bytes);
 
 }  // namespace wheatstone

@@ -8,7 +8,7 @@
 #include <cstdlib>
 
 #include "temporary_folder.h"
-#include "wheatstone/image/srgb.h"
+#include "wheatstone/image/colour.h"
 #include "wheatstone/pictures/colour_profile_internal.h"
 #include "wheatstone/pictures/read_image.h"
 

@@ -1,4 +1,3 @@
-#include "wheatstone/pictures/depth_file.h"
 
 #include <OpenImageIO/imageio.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "wheatstone/pictures/describe_image.h"
+#include "wheatstone/pictures/read_image.h"
 
 #include <OpenImageIO/imageio.h>
 #include <gtest/gtest.h>

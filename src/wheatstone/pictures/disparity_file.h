@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <string_view>
 
 #include "wheatstone/image/image.h"
 
@@ -18,5 +19,13 @@ Image<float> read_disparity(const std::filesystem::path& path, std::optional<flo
 /// Its text says which: "Disparity scale" and "Disparity offset", for value / scale + offset. Written under a temporary
 /// name first, as write_image.
 void write_disparity(const std::filesystem::path& path, ImageView<const float> disparity);
+
+/// Reads a picture of depth: the numbers as they are stored, whatever they stand for; NaN where they are not finite.
+/// PNG and other pictures of 8 or 16 bits (grey, or colours that are equal), PFM of either byte order, EXR.
+/// Throws Error{bad_input} where the file is missing, damaged, in colour, or holds no finite number.
+Image<float> read_depth(const std::filesystem::path& path);
+
+/// The same of a PNG or JPEG in memory, brought to 0..1 of what its bits hold; `path` stands for it in messages.
+Image<float> decode_depth(std::string_view bytes, const std::filesystem::path& path);
 
 }  // namespace wheatstone

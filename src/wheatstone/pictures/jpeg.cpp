@@ -8,8 +8,8 @@
 #include <memory>
 #include <vector>
 
-#include "wheatstone/pictures/exif_orientation_internal.h"
 #include "wheatstone/pictures/jpeg.h"
+#include "wheatstone/pictures/upright.h"
 
 namespace wheatstone {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "wheatstone/error.h"
 #include "wheatstone/files/whole_file.h"
-#include "wheatstone/image/srgb.h"
+#include "wheatstone/image/colour.h"
 #include "wheatstone/pictures/picture_file.h"
 
 namespace wheatstone {

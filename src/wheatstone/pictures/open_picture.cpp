@@ -10,15 +10,13 @@
 #include <utility>
 
 #include "wheatstone/error.h"
-#include "wheatstone/files/address_space.h"
-#include "wheatstone/files/plain_file.h"
+#include "wheatstone/files/module.h"
 #include "wheatstone/files/whole_file.h"
 #include "wheatstone/image/image.h"
-#include "wheatstone/pictures/embedded_profile_internal.h"
+#include "wheatstone/pictures/colour_profile_internal.h"
 #include "wheatstone/pictures/jpeg.h"
 #include "wheatstone/pictures/open_picture.h"
 #include "wheatstone/pictures/picture_module_internal.h"
-#include "wheatstone/pictures/plain_png_internal.h"
 #include "wheatstone/pictures/png_reader_internal.h"
 
 namespace wheatstone {

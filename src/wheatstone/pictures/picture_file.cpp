@@ -9,7 +9,7 @@
 
 #include "wheatstone/error.h"
 #include "wheatstone/files/module.h"
-#include "wheatstone/files/plain_file.h"
+#include "wheatstone/files/whole_file.h"
 #include "wheatstone/pictures/encode_png_internal.h"
 #include "wheatstone/pictures/exr_header_internal.h"
 #include "wheatstone/pictures/jpeg.h"

@@ -1,4 +1,4 @@
-#include "wheatstone/pictures/plain_png_internal.h"
+#include "wheatstone/pictures/png_reader_internal.h"
 
 #include <gtest/gtest.h>
 #include <zlib.h>

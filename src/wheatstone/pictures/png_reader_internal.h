@@ -1,10 +1,17 @@
 #pragma once
 
+#include <optional>
+#include <string>
 #include <string_view>
 
 #include "wheatstone/pictures/picture_file.h"
 
 namespace wheatstone {
+
+/// The PNG with only the chunks that make its pixels and turn them upright; nothing where the file breaks off or a
+/// checksum is wrong. libpng would write of damage, and of harmless oddities in colour profiles and comments, on
+/// standard error, where a program's own one line belongs. PNG 1.2, sec. 3.2 and 4.
+std::optional<std::string> plain_png(std::string_view bytes);
 
 bool is_png(std::string_view bytes);
 

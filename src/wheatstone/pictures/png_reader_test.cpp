@@ -7,8 +7,8 @@
 #include <random>
 
 #include "temporary_folder.h"
-#include "wheatstone/pictures/exif_orientation_internal.h"
 #include "wheatstone/pictures/png_chunks.h"
+#include "wheatstone/pictures/upright.h"
 
 namespace wheatstone::png_reader_test {
 

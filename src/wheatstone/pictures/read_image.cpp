@@ -13,7 +13,6 @@
 
 #include "wheatstone/pictures/animated_png_internal.h"
 #include "wheatstone/pictures/colour_profile_internal.h"
-#include "wheatstone/pictures/embedded_profile_internal.h"
 #include "wheatstone/pictures/open_picture.h"
 #include "wheatstone/pictures/upright.h"
 
@@ -145,6 +144,21 @@ std::vector<Image<Rgb8>> read_picture_frames(const fs::path& path, int most_fram
 
 Image<Rgb8> decode_jpeg(std::string_view bytes, const fs::path& path) {
   return read_opened(path, open_jpeg(bytes, path));
+}
+
+ImageDescription describe_image(const std::filesystem::path& path) {
+  const OpenPicture open = open_picture(path);
+  const StoredPicture& picture = open.reader->picture();
+  ImageDescription description;
+  description.format = open.reader->format();
+  description.width = picture.width;
+  description.height = picture.height;
+  description.channels = picture.channels;
+  description.has_alpha = picture.alpha_channel >= 0;
+  description.bits = picture.value_of("oiio:BitsPerSample", picture.kind.bits);
+  description.is_float = picture.kind.is_float;
+  description.orientation = picture.value_of("Orientation", 1);
+  return description;
 }
 
 }  // namespace wheatstone

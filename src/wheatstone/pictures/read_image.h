@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -23,5 +24,20 @@ bool may_be_animated(std::string_view bytes);
 /// The frames of such a picture as they are shown, but at most `most_frames`. Throws Error as read_image, also where a
 /// frame of a PNG is only a part of the picture.
 std::vector<Image<Rgb8>> read_picture_frames(const std::filesystem::path& path, int most_frames);
+
+/// What a picture file says of itself, before anything is converted.
+struct ImageDescription {
+  std::string format;  ///< "png", "jpeg", "tiff" and so on
+  int width = 0;       ///< as stored, before its orientation is applied
+  int height = 0;
+  int channels = 0;
+  bool has_alpha = false;
+  int bits = 8;  ///< of each channel
+  bool is_float = false;
+  int orientation = 1;  ///< EXIF: 1 is upright
+};
+
+/// Reads a picture's header. Throws Error as read_image; damage behind the header may go unseen.
+ImageDescription describe_image(const std::filesystem::path& path);
 
 }  // namespace wheatstone

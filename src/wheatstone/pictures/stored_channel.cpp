@@ -11,7 +11,6 @@
 #include "wheatstone/error.h"
 #include "wheatstone/pictures/jpeg.h"
 #include "wheatstone/pictures/open_picture.h"
-#include "wheatstone/pictures/plain_png_internal.h"
 #include "wheatstone/pictures/png_reader_internal.h"
 #include "wheatstone/pictures/stored_channel_internal.h"
 

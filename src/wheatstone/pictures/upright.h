@@ -1,11 +1,16 @@
 #pragma once
 
 #include <span>
+#include <string_view>
 #include <utility>
 
 #include "wheatstone/image/image.h"
 
 namespace wheatstone {
+
+/// The tag Orientation of EXIF data, which begin with a TIFF header; 1, upright, where it is missing or damaged.
+/// EXIF 2.3, sec. 4.5 and 4.6.4.
+int exif_orientation(std::string_view exif);
 
 /// EXIF 2.3, tag Orientation: 1 to 4 turn and mirror, 5 to 8 also swap rows and columns; anything else leaves the
 /// picture as it is. Our own, because ImageBufAlgo::reorient confuses 5 and 7 (OpenImageIO 2.4.7).

@@ -7,7 +7,7 @@
 
 #include "wheatstone/image/grain.h"
 #include "wheatstone/image/orientation_field.h"
-#include "wheatstone/motion/fitting_scene.h"
+#include "wheatstone/motion/film_frame.h"
 #include "wheatstone/regions/outline_internal.h"
 #include "wheatstone/regions/tiling_internal.h"
 

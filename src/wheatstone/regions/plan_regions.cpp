@@ -5,7 +5,7 @@
 
 #include "wheatstone/image/grain.h"
 #include "wheatstone/image/mat_opencv.h"
-#include "wheatstone/motion/fitting_scene.h"
+#include "wheatstone/motion/film_frame.h"
 #include "wheatstone/random.h"
 #include "wheatstone/regions/plan_regions_internal.h"
 #include "wheatstone/stereo/occlusion.h"

@@ -9,7 +9,7 @@
 #include <span>
 
 #include "wheatstone/image/grain.h"
-#include "wheatstone/motion/fitting_scene.h"
+#include "wheatstone/motion/film_frame.h"
 #include "wheatstone/regions/colour_palette_internal.h"
 #include "wheatstone/regions/cut_to_surfaces_internal.h"
 #include "wheatstone/regions/outline_internal.h"

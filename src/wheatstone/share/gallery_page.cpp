@@ -9,7 +9,7 @@
 #include <string_view>
 #include <utility>
 
-#include "wheatstone/files/html_text.h"
+#include "wheatstone/files/text_encoding.h"
 
 namespace wheatstone {
 namespace {
@@ -83,15 +83,10 @@ std::vector<GalleryEntry> gallery_entries(const fs::path& folder) {
 }
 
 std::string gallery_page(std::span<const GalleryEntry> entries, const PageWords& words) {
-  std::string page;
-  fmt::format_to(
-      std::back_inserter(page),
-      "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
-      "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'; "
-      "img-src 'self'; base-uri 'none'; form-action 'none'\">\n"
-      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{0}</title>\n"
-      "<style>{1}</style>\n</head><body>\n<h1>{0}</h1>\n",
-      html_text(words.title), style);
+  std::string page = html_head(words.title, style,
+                               "default-src 'none'; style-src 'unsafe-inline'; img-src 'self'; base-uri 'none'; "
+                               "form-action 'none'") +
+                     fmt::format("<h1>{}</h1>\n", html_text(words.title));
   for (const std::string& text : {words.description, words.caption})
     if (!text.empty()) page += fmt::format("<p>{}</p>\n", html_text(text));
   page += "<main>\n";

@@ -1,6 +1,6 @@
 #include <utility>
 
-#include "wheatstone/marks/deflated.h"
+#include "wheatstone/files/deflate.h"
 #include "wheatstone/share/number_streams_internal.h"
 
 namespace wheatstone {

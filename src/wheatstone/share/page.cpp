@@ -5,8 +5,7 @@
 #include <charconv>
 #include <iterator>
 
-#include "wheatstone/files/base64.h"
-#include "wheatstone/files/html_text.h"
+#include "wheatstone/files/text_encoding.h"
 #include "wheatstone/share/page_code_internal.h"
 
 namespace wheatstone {
@@ -46,22 +45,19 @@ constexpr std::string_view without_script =
 }  // namespace
 
 std::string html_page(const SharedPicture& picture, const PageWords& words) {
-  const std::string title = html_text(words.title);
   std::string page;
   const auto to = std::back_inserter(page);
-  fmt::format_to(to,
-                 "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
-                 "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; script-src {}; style-src "
-                 "{}; img-src data: blob:; media-src {}blob:; base-uri 'none'; form-action 'none'\">\n"
-                 "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{}</title>\n",
-                 source_of(page_code), source_of(page_style), picture.has_file_beside ? "'self' " : "", title);
   // The code stands before the data: it can say that they were cut off.
-  fmt::format_to(to, "<style>{}</style>\n<script>{}</script>\n</head><body>\n", page_style.text, page_code.text);
+  page += html_head(words.title, page_style.text,
+                    fmt::format("default-src 'none'; script-src {}; style-src {}; img-src data: blob:; media-src "
+                                "{}blob:; base-uri 'none'; form-action 'none'",
+                                source_of(page_code), source_of(page_style), picture.has_file_beside ? "'self' " : ""),
+                    fmt::format("<script>{}</script>\n", page_code.text));
   fmt::format_to(to,
                  "<figure>\n<wheatstone-picture src=\"#picture\"><img src=\"data:image/jpeg;base64,{}\" width=\"{}\" "
                  "height=\"{}\" alt=\"{}\"></wheatstone-picture>\n",
                  base64(picture.still_jpeg), picture.width, picture.height,
-                 words.description.empty() ? title : html_text(words.description));
+                 html_text(words.description.empty() ? words.title : words.description));
   if (!words.caption.empty()) fmt::format_to(to, "<figcaption>{}</figcaption>\n", html_text(words.caption));
   fmt::format_to(to, "<noscript><p>{}</p></noscript>\n</figure>\n", without_script);
   fmt::format_to(to, "<script type=\"application/json\" id=\"picture\">{}</script>\n", script_text(picture.facts));

@@ -1,4 +1,4 @@
-#include "wheatstone/share/share_painting.h"
+#include "wheatstone/share/share_pictures.h"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 #include "wheatstone/depth/comfort.h"
 #include "wheatstone/drawing/hidden_strokes.h"
 #include "wheatstone/error.h"
-#include "wheatstone/marks/deflated.h"
+#include "wheatstone/files/deflate.h"
 #include "wheatstone/painting/two_eyes.h"
 #include "wheatstone/pictures/write_image.h"
 #include "wheatstone/share/mark_parts_internal.h"

@@ -1,4 +1,4 @@
-#include "wheatstone/share/share_painting.h"
+#include "wheatstone/share/share_pictures.h"
 
 #include <gmock/gmock.h>
 

@@ -1,4 +1,4 @@
-#include "wheatstone/share/share_slices.h"
+#include "wheatstone/share/share_pictures.h"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>

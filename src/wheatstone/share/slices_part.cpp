@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "wheatstone/marks/deflated.h"
+#include "wheatstone/files/deflate.h"
 #include "wheatstone/share/slices_part_internal.h"
 
 namespace wheatstone {

@@ -1,6 +1,6 @@
 // Pairs whose pictures differ by a few rows.
 
-#include "wheatstone/stereo/common_part.h"
+#include "wheatstone/stereo/picture_sizes.h"
 
 #include <gtest/gtest.h>
 

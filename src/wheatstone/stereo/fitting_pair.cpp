@@ -9,7 +9,7 @@
 
 namespace wheatstone {
 
-void check_sizes(std::string_view name, ImageSize found, std::string_view owner, ImageSize expected) {
+void check_sizes(std::string_view name, PictureSize found, std::string_view owner, PictureSize expected) {
   if (found != expected)
     throw Error(ErrorKind::bad_input, fmt::format("{} is {}x{} pixels, expected {} {}x{}", name, found.width,
                                                   found.height, owner, expected.width, expected.height));

@@ -6,13 +6,8 @@
 
 namespace wheatstone {
 
-struct ImageSize {
-  int width = 0, height = 0;
-  friend bool operator==(const ImageSize&, const ImageSize&) = default;
-};
-
 /// Throws Error{bad_input}, "NAME is WxH pixels, expected OWNER WxH", where the two sizes differ.
-void check_sizes(std::string_view name, ImageSize found, std::string_view owner, ImageSize expected);
+void check_sizes(std::string_view name, PictureSize found, std::string_view owner, PictureSize expected);
 
 /// The same of images and masks of any kind.
 template <class A, class B>

@@ -5,8 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "wheatstone/image/oklab.h"
-#include "wheatstone/image/srgb.h"
+#include "wheatstone/image/colour.h"
 #include "wheatstone/random.h"
 
 namespace wheatstone {

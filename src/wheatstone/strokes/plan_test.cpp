@@ -7,8 +7,7 @@
 
 #include "scenes/two_surfaces.h"
 #include "wheatstone/drawing/flatten_internal.h"
-#include "wheatstone/image/oklab.h"
-#include "wheatstone/image/srgb.h"
+#include "wheatstone/image/colour.h"
 #include "wheatstone/random.h"
 #include "wheatstone/stereo/view_scale.h"
 #include "wheatstone/strokes/bare_pixels_internal.h"

@@ -14,7 +14,6 @@
 #include "scenes/short_film.h"
 #include "throws_error.h"
 #include "wheatstone/measures/consistency.h"
-#include "wheatstone/measures/depth_survival.h"
 #include "wheatstone/measures/film_measures.h"
 #include "wheatstone/measures/view_measures.h"
 #include "wheatstone/measures/wrong_spots.h"

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "wheatstone/files/text_encoding.h"
 #include "wheatstone/study/figures_internal.h"
 
 namespace wheatstone {
@@ -160,11 +161,11 @@ std::string tsv(Row columns, const Rows& rows, bool simulated) {
 
 std::string html_table(const Row& columns, const Rows& rows) {
   std::string html = "<table><tr>";
-  for (const std::string& column : columns) html += fmt::format("<th>{}</th>", escaped(column));
+  for (const std::string& column : columns) html += fmt::format("<th>{}</th>", html_text(column));
   html += "</tr>\n";
   for (const Row& row : rows) {
     html += "<tr>";
-    for (const std::string& field : row) html += fmt::format("<td>{}</td>", escaped(field));
+    for (const std::string& field : row) html += fmt::format("<td>{}</td>", html_text(field));
     html += "</tr>\n";
   }
   return html + "</table>\n";
@@ -175,11 +176,11 @@ std::string left_out_text(std::string_view what, const AnovaResult& result) {
   if (result.left_out.empty()) return {};
   std::string names;
   for (const std::string& name : result.left_out) names += (names.empty() ? "" : ", ") + name;
-  return fmt::format("<p>Without {} with a missing cell: {}.</p>\n", what, escaped(names));
+  return fmt::format("<p>Without {} with a missing cell: {}.</p>\n", what, html_text(names));
 }
 
 std::string measure_section(const MeasureAnalysis& measure) {
-  return fmt::format("<h2>{}</h2>\n", escaped(measure.text)) + means_figure(measure) +
+  return fmt::format("<h2>{}</h2>\n", html_text(measure.text)) + means_figure(measure) +
          "<p>Means of subjects; bars are one standard error.</p>\n" + html_table(mean_columns, mean_rows(measure)) +
          "<h3>Analysis of variance</h3>\n" + left_out_text("subjects", measure.by_subjects) +
          left_out_text("items", measure.by_items) + html_table(effect_columns, effect_rows(measure)) +
@@ -216,23 +217,19 @@ std::vector<std::pair<std::string, std::string>> analysis_tables(const StudyData
 
 std::string analysis_page(const StudyData& data, const StudyAnalysis& analysis,
                           const std::vector<PublishedComparison>& published) {
-  std::string page = fmt::format(
-      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta "
-      "charset=\"utf-8\"><title>{0}</title><style>{1}</style></head><body>\n"
-      "<h1>{0}</h1>\n",
-      escaped(data.design.title), style);
+  std::string page = html_head(data.design.title, style) + fmt::format("<h1>{}</h1>\n", html_text(data.design.title));
   if (data.simulated) page += "<p class=\"simulated\">Simulated observers: no person took part.</p>\n";
   page += fmt::format(
       "<p>{} subjects, {} trials. {} wrong answers and {} outliers do not count as response times. {}</p>\n",
-      analysis.subjects, analysis.trials, analysis.wrong_answers, analysis.outliers, escaped(analysis.outlier_rule));
+      analysis.subjects, analysis.trials, analysis.wrong_answers, analysis.outliers, html_text(analysis.outlier_rule));
   for (const auto& [what, subjects] :
        {std::pair{"Not finished", &analysis.unfinished}, std::pair{"Without trials", &analysis.without_trials}})
     if (!subjects->empty())
-      page += fmt::format("<p>{}: {}.</p>\n", what, escaped(fmt::format("{}", fmt::join(*subjects, ", "))));
+      page += fmt::format("<p>{}: {}.</p>\n", what, html_text(fmt::format("{}", fmt::join(*subjects, ", "))));
   for (const MeasureAnalysis& measure : analysis.measures) page += measure_section(measure);
   for (const PublishedComparison& comparison : published)
     page += fmt::format("<h2>Beside what was published: {}</h2>\n<p>Rank correlation of the means: {}.</p>\n",
-                        escaped(comparison.measure), number(comparison.order, 2)) +
+                        html_text(comparison.measure), number(comparison.order, 2)) +
             html_table(published_columns, published_rows(comparison));
   if (!analysis.head_movement.empty())
     page += "<h2>Head movement</h2>\n" + head_movement_figure(analysis.head_movement) +

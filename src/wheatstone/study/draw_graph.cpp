@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "wheatstone/image/srgb.h"
+#include "wheatstone/image/colour.h"
 
 namespace wheatstone {
 namespace {
@@ -252,12 +252,12 @@ Image<Rgb8> with_crosstalk(const Image<Rgb8>& own, const std::array<Image<Rgb8>,
 
 StereoPair draw_for_eyes(const DrawForEye& draw, const StudyScreen& screen, const SimulatedDisplay& display,
                          const HeadPlace& head) {
-  const auto draw_eye = [&](const ShownView& shown) {
+  const auto draw_eye = [&](const SimulatedView& shown) {
     Image<Rgb8> own = draw(shown.view);
     if (display.crosstalk <= 0) return own;
     return with_crosstalk(own, {draw(shown.beside[0]), draw(shown.beside[1])}, display.crosstalk);
   };
-  const std::array<ShownView, 2> shown = shown_views(display, screen, head);
+  const std::array<SimulatedView, 2> shown = shown_views(display, screen, head);
   StereoPair pair;
   pair.left = draw_eye(shown[0]);
   pair.right = display.monoscopic ? pair.left : draw_eye(shown[1]);

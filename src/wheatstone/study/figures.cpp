@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "wheatstone/files/text_encoding.h"
 #include "wheatstone/study/figures_internal.h"
 
 namespace wheatstone {
@@ -45,7 +46,7 @@ std::string axis_svg(const Axis& axis, double width, const std::string& title) {
                        std::round(value / axis.step) * axis.step);
   }
   return svg + fmt::format(R"svg(<text transform="translate(14 {:.1f}) rotate(-90)" text-anchor="middle">{}</text>)svg",
-                           plot_top + plot_height / 2, escaped(title));
+                           plot_top + plot_height / 2, html_text(title));
 }
 
 /// A condition's name below its column, one line a factor.
@@ -55,7 +56,7 @@ std::string column_label(double x, const std::string& name) {
   for (std::size_t begin = 0; begin <= name.size(); line_x += 15) {
     const std::size_t end = std::min(name.find(',', begin), name.size());
     svg += fmt::format(R"svg(<text transform="translate({:.1f} {:.1f}) rotate(-50)" text-anchor="end">{}</text>)svg",
-                       line_x, plot_top + plot_height + 16, escaped(name.substr(begin, end - begin)));
+                       line_x, plot_top + plot_height + 16, html_text(name.substr(begin, end - begin)));
     begin = end + 1;
   }
   return svg;
@@ -73,23 +74,6 @@ std::string figure(std::size_t columns, const std::string& content) {
 double middle_of(std::size_t column) { return plot_left + column_width * (static_cast<double>(column) + 0.5); }
 
 }  // namespace
-
-std::string escaped(std::string_view text) {
-  std::string safe;
-  for (const char c : text) {
-    if (c == '<')
-      safe += "&lt;";
-    else if (c == '>')
-      safe += "&gt;";
-    else if (c == '&')
-      safe += "&amp;";
-    else if (c == '"')
-      safe += "&quot;";
-    else
-      safe += c;
-  }
-  return safe;
-}
 
 std::string means_figure(const MeasureAnalysis& measure) {
   double least = INFINITY, most = -INFINITY;

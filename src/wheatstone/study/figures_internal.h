@@ -13,7 +13,4 @@ std::string means_figure(const MeasureAnalysis& measure);
 /// Box plots of how far heads moved to the sides.
 std::string head_movement_figure(const std::vector<HeadMovement>& movement);
 
-/// A text with the characters that HTML and SVG keep for themselves replaced.
-std::string escaped(std::string_view text);
-
 }  // namespace wheatstone

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "wheatstone/study/figures_internal.h"
+#include "wheatstone/files/text_encoding.h"
 #include "wheatstone/study/trial_plan.h"
 
 namespace wheatstone {
@@ -14,7 +14,7 @@ constexpr std::string_view sheet_style =
 
 std::string paragraphs(const std::string& text) {
   std::string html = "<p>";
-  for (const char letter : escaped(text)) html += letter == '\n' ? "<br>\n" : std::string(1, letter);
+  for (const char letter : html_text(text)) html += letter == '\n' ? "<br>\n" : std::string(1, letter);
   return html + "</p>\n";
 }
 
@@ -22,10 +22,8 @@ std::string paragraphs(const std::string& text) {
 
 std::string instructions_page(const StudyDesign& design, const std::string& folder) {
   const int trials = condition_count(design) * design.repetitions;
-  std::string page = fmt::format(
-      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>{0}</title><style>{1}</style></head>"
-      "<body>\n<section><h1>{0}</h1>\n",
-      escaped(design.title), sheet_style);
+  std::string page =
+      html_head(design.title, sheet_style) + fmt::format("<section><h1>{}</h1>\n", html_text(design.title));
   page += paragraphs(design.texts.instruction) + paragraphs(design.texts.question);
   if (design.task == StudyTask::rating)
     page += fmt::format("<p>Answer with the keys {} to {}.</p>\n", design.scale_least, design.scale_most);
@@ -44,7 +42,7 @@ std::string instructions_page(const StudyDesign& design, const std::string& fold
       "--distance 70cm --mode even-odd-rows -o {1}</code></li>\n"
       "<li>Afterwards: <code>wheatstone study analyse {1} --against published -o analysis</code></li>\n</ol>\n"
       "<p>Consent, ethics and what to ask before: see the section on ethics in docs/studies.md.</p></section>\n",
-      design.subjects, escaped(folder));
+      design.subjects, html_text(folder));
   return page + "</body></html>\n";
 }
 

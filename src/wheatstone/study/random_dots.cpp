@@ -5,7 +5,7 @@
 #include <numbers>
 #include <vector>
 
-#include "wheatstone/image/srgb.h"
+#include "wheatstone/image/colour.h"
 #include "wheatstone/study/draw_lots_internal.h"
 
 namespace wheatstone {

@@ -17,8 +17,8 @@ ViewingGeometry StudyScreen::viewing() const {
           .width_px = width_px};
 }
 
-std::array<ShownView, 2> shown_views(const SimulatedDisplay& display, const StudyScreen& screen,
-                                     const HeadPlace& head) {
+std::array<SimulatedView, 2> shown_views(const SimulatedDisplay& display, const StudyScreen& screen,
+                                         const HeadPlace& head) {
   const bool fixed = display.views_per_10cm <= 0;
   const float spacing = fixed ? screen.eye_separation_mm : 100 / display.views_per_10cm;
   const float distance = fixed || !display.tracks_distance ? screen.viewing_distance_mm : head.distance_mm;
@@ -29,7 +29,7 @@ std::array<ShownView, 2> shown_views(const SimulatedDisplay& display, const Stud
                                                 : nearest_view(head.x_mm + offset, spacing);
   };
   const auto shown = [&](float x) {
-    return ShownView{{x, distance}, {EyePlace{x - spacing, distance}, EyePlace{x + spacing, distance}}};
+    return SimulatedView{{x, distance}, {EyePlace{x - spacing, distance}, EyePlace{x + spacing, distance}}};
   };
   const float left = view_of(-0.5f);
   return {shown(left), shown(display.monoscopic ? left : view_of(0.5f))};

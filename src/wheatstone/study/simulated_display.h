@@ -49,13 +49,14 @@ struct SimulatedDisplay {
 };
 
 /// What an eye is shown: a view, and half the crosstalk each of the views beside it.
-struct ShownView {
+struct SimulatedView {
   EyePlace view;
   std::array<EyePlace, 2> beside;
 };
 
 /// Left and right.
-std::array<ShownView, 2> shown_views(const SimulatedDisplay& display, const StudyScreen& screen, const HeadPlace& head);
+std::array<SimulatedView, 2> shown_views(const SimulatedDisplay& display, const StudyScreen& screen,
+                                         const HeadPlace& head);
 
 /// Where a view shows a place, in pixels of the screen: the line from the eye through the place meets the screen there.
 /// A view that is made for where its eye is holds the perceived depth, whatever the head's place (the aim of Jones et

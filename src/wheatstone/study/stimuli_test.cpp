@@ -9,7 +9,7 @@
 #include <set>
 
 #include "throws_error.h"
-#include "wheatstone/image/srgb.h"
+#include "wheatstone/image/colour.h"
 #include "wheatstone/study/draw_graph.h"
 #include "wheatstone/study/path_graph.h"
 #include "wheatstone/study/random_dots.h"
@@ -188,7 +188,7 @@ TEST(PathGraph, AVolumeIsFilledAtRandom) {
 TEST(SimulatedDisplay, NodesHaveTheStatedDepthOnTheScreen) {
   for (std::uint64_t seed = 0; seed < seeds; ++seed) {
     const PathGraph graph = make_path_graph({.depth_mm = seed % 2 == 0 ? 20.0f : 100.0f}, seed, true);
-    const std::array<ShownView, 2> eyes = shown_views({}, screen, {});
+    const std::array<SimulatedView, 2> eyes = shown_views({}, screen, {});
     for (const PlaceMm& node : graph.nodes) {
       const float parallax = on_screen_px(screen, eyes[1].view, node)[0] - on_screen_px(screen, eyes[0].view, node)[0];
       ASSERT_THAT(parallax * screen.pixel_pitch_mm(),
@@ -286,7 +286,7 @@ TEST(SimulatedDisplay, PerceivedDepthIsConstantForAnyHead) {
   for (const float x : {-150.0f, -40.0f, 0.0f, 95.0f})
     for (const float distance : {500.0f, 700.0f, 900.0f}) {
       const HeadPlace head{x, distance};
-      const std::array<ShownView, 2> shown = shown_views(dense, screen, head);
+      const std::array<SimulatedView, 2> shown = shown_views(dense, screen, head);
       const std::array<EyePlace, 2> eyes{EyePlace{x - 32.5f, distance}, EyePlace{x + 32.5f, distance}};
       const PlaceMm seen = perceived_place(
           screen, eyes, {on_screen_px(screen, shown[0].view, place), on_screen_px(screen, shown[1].view, place)});
@@ -299,7 +299,7 @@ TEST(SimulatedDisplay, AFixedPairRotatesFalselyWithTheHead) {
   const HeadPlace head{100, 700};
   const std::array<EyePlace, 2> eyes{EyePlace{67.5f, 700}, EyePlace{132.5f, 700}};
   const auto seen = [&](const SimulatedDisplay& display) {
-    const std::array<ShownView, 2> shown = shown_views(display, screen, head);
+    const std::array<SimulatedView, 2> shown = shown_views(display, screen, head);
     return perceived_place(screen, eyes,
                            {on_screen_px(screen, shown[0].view, place), on_screen_px(screen, shown[1].view, place)});
   };

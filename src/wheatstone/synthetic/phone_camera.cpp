@@ -10,8 +10,8 @@
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "wheatstone/image/colour.h"
 #include "wheatstone/image/mat_opencv.h"
-#include "wheatstone/image/srgb.h"
 #include "wheatstone/random.h"
 #include "wheatstone/synthetic/synthetic_still_view_internal.h"
 

@@ -67,7 +67,7 @@ class DecodedFilm {
   RgbFromFrame rgb_from_frame_;
   Image<Rgb8> lying_;  ///< before it is turned
   FilmFacts facts_;
-  Orientation orientation_;
+  PictureTurn orientation_;
   FrameTime time_;
   FrameTime latest_;                     ///< of the packets that were read
   std::optional<FrameTime> time_ahead_;  ///< nothing where no frame follows

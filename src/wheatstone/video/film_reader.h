@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "wheatstone/stereo/stereo_layout.h"
-#include "wheatstone/video/colour_tags.h"
 #include "wheatstone/video/frame.h"
 
 namespace wheatstone {

@@ -171,7 +171,7 @@ TEST(Orientation, TurnsAndFlips) {
   EXPECT_EQ(turned(picture, {0, -1, 1, 0})(0, 0).r, 9);   // against the clock: to top left
   EXPECT_EQ(turned(picture, {-1, 0, 0, -1})(0, 1).r, 9);  // half a turn: to bottom left
   EXPECT_EQ(turned(picture, {-1, 0, 0, 1})(0, 0).r, 9);   // mirrored: to top left
-  EXPECT_EQ((Orientation{0, 1, -1, 0}).degrees(), 90);
+  EXPECT_EQ((PictureTurn{0, 1, -1, 0}).degrees(), 90);
 }
 
 TEST(FilmReader, NumberedPictures) {

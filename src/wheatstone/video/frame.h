@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 
 #include "wheatstone/image/image.h"
 
@@ -33,6 +34,16 @@ struct StereoFrame {
   std::int64_t pts = 0;
   Rational time_base{1, 1};
   std::int64_t duration = 0;
+};
+
+/// How a film says its colours are coded, in libav's names ("bt709", "smpte170m", "bt2020nc", "gbr"; "tv", "pc");
+/// empty where it does not say.
+struct ColourTags {
+  std::string matrix;
+  std::string range;
+  std::string primaries;
+  std::string transfer;
+  friend bool operator==(const ColourTags&, const ColourTags&) = default;
 };
 
 }  // namespace wheatstone

@@ -9,7 +9,7 @@ extern "C" {
 }
 
 #include "wheatstone/error.h"
-#include "wheatstone/files/plain_file.h"
+#include "wheatstone/files/whole_file.h"
 #include "wheatstone/video/libav_internal.h"
 
 namespace wheatstone {

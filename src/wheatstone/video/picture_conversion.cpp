@@ -162,13 +162,13 @@ OwnedFrame FrameFromRgb::convert(ImageView<const Rgb8> picture) {
   return frame;
 }
 
-int Orientation::degrees() const {
+int PictureTurn::degrees() const {
   // The direction that the stored picture's x axis takes.
   const double angle = std::atan2(b, a) * 180 / std::numbers::pi;
   return static_cast<int>(std::lround(angle + 360)) % 360;
 }
 
-Orientation orientation_of(const std::int32_t* display_matrix) {
+PictureTurn orientation_of(const std::int32_t* display_matrix) {
   // x' = a·x + c·y, y' = b·x + d·y; 16.16 fixed point.
   const auto at = [&](int index) { return static_cast<double>(display_matrix[index]); };
   const auto sign = [](double value) { return value < 0 ? -1 : 1; };
@@ -178,7 +178,7 @@ Orientation orientation_of(const std::int32_t* display_matrix) {
   return {0, sign(b), sign(c), 0};
 }
 
-Image<Rgb8> turned(const Image<Rgb8>& picture, Orientation orientation) {
+Image<Rgb8> turned(const Image<Rgb8>& picture, PictureTurn orientation) {
   const int width = picture.width(), height = picture.height();
   Image<Rgb8> result(orientation.swaps_sides() ? height : width, orientation.swaps_sides() ? width : height);
   // What would come to lie left of or above the origin is moved by the picture's extent.

@@ -6,7 +6,7 @@
 #include <filesystem>
 
 #include "wheatstone/image/image.h"
-#include "wheatstone/video/colour_tags.h"
+#include "wheatstone/video/frame.h"
 #include "wheatstone/video/libav_internal.h"
 
 namespace wheatstone {
@@ -44,7 +44,7 @@ class FrameFromRgb {
 
 /// One of the eight ways to lie: where a pixel of the stored picture goes. Rows of the matrix as in
 /// libavutil/display.h.
-struct Orientation {
+struct PictureTurn {
   int a = 1, b = 0, c = 0, d = 1;
   bool is_upright() const { return a == 1 && d == 1; }
   bool swaps_sides() const { return a == 0; }
@@ -53,8 +53,8 @@ struct Orientation {
 };
 
 /// The orientation that a display matrix asks for, rounded to quarter turns.
-Orientation orientation_of(const std::int32_t* display_matrix);
+PictureTurn orientation_of(const std::int32_t* display_matrix);
 
-Image<Rgb8> turned(const Image<Rgb8>& picture, Orientation orientation);
+Image<Rgb8> turned(const Image<Rgb8>& picture, PictureTurn orientation);
 
 }  // namespace wheatstone

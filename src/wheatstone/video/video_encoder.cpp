@@ -15,7 +15,7 @@ extern "C" {
 }
 
 #include "wheatstone/error.h"
-#include "wheatstone/files/address_space.h"
+#include "wheatstone/files/module.h"
 #include "wheatstone/video/kept_metadata_internal.h"
 #include "wheatstone/video/stereo_metadata_internal.h"
 #include "wheatstone/video/video_codings_internal.h"

@@ -1,0 +1,111 @@
+#include "wheatstone/share/share_pictures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "wheatstone/depth/comfort.h"
+#include "wheatstone/depth/convergence.h"
+#include "wheatstone/display/quilt.h"
+#include "wheatstone/error.h"
+#include "wheatstone/painting/still_scene.h"
+#include "wheatstone/pictures/write_image.h"
+#include "wheatstone/share/surface_parts_internal.h"
+#include "wheatstone/stereo/picture_sizes.h"
+#include "wheatstone/stereo/view_scale.h"
+
+namespace wheatstone {
+namespace {
+
+/// What a view of the scene is the first to show.
+Surface surface_of(const View& view) {
+  Surface surface{view.position, Image<float>(view.disparity.width(), view.disparity.height()), view.frame.origin_px,
+                  view.continued};
+  for (int y = 0; y < view.disparity.height(); ++y)
+    for (int x = 0; x < view.disparity.width(); ++x)
+      surface.disparity(x, y) = view.wanted.empty() || view.wanted(x, y) != 0 ? view.disparity(x, y)
+                                                                              : std::numeric_limits<float>::quiet_NaN();
+  return surface;
+}
+
+}  // namespace
+
+SharedPicture share_photograph(const StereoPair& photographs, const StereoGeometry& geometry,
+                               const std::string& title) {
+  constexpr ViewRange wanted{ViewPosition(-1.f), ViewPosition(1.f)};
+  const std::vector<View> scene = at_reference_scale(make_still_scene(photographs, geometry, wanted));
+  SharedPicture shared{.width = photographs.left.width(), .height = photographs.left.height()};
+  Surfaces surfaces;
+  std::vector<Image<Rgb8>> pictures;
+  for (const View& view : scene) {
+    surfaces.seen.push_back(surface_of(view));
+    pictures.push_back(copy_of(view.colour));
+  }
+  const DepthEnds ends = depth_ends(geometry.left_disparity);
+  const float depth_px = std::max(ends.nearest_px - ends.farthest_px, 1e-3f),
+              budget_px = comfortable_parallax_share * static_cast<float>(shared.width);
+  Json facts{{"kind", "layered"},
+             {"title", title},
+             {"width", shared.width},
+             {"height", shared.height},
+             {"separation", std::min(budget_px / depth_px, 1.f)},
+             {"zeroParallax", ends.nearest_px},
+             {"first", wanted.first.eye_separations()},
+             {"last", wanted.last.eye_separations()}};
+  facts["surfaces"] = add_surfaces(surfaces, shared.parts);
+  add_pictures(pictures, surfaces, shared.parts);
+  shared.facts = text_of(facts);
+  shared.still_jpeg = still_of(photographs.left);
+  return shared;
+}
+
+namespace {
+
+/// Places for so many views, none of them empty: as square a picture as there is.
+QuiltLayout layout_for(int views) {
+  int columns = std::max(static_cast<int>(std::sqrt(static_cast<double>(views))), 1);
+  while (views % columns != 0) --columns;
+  return {views / columns, columns};
+}
+
+}  // namespace
+
+SharedPicture share_views(std::span<const Image<Rgb8>> views, const std::string& title) {
+  if (views.empty()) throw Error(ErrorKind::wrong_usage, "there are 0 views, expected at least 1");
+  constexpr int widest_px = 8192, quality = 92;
+  const auto count = static_cast<int>(views.size());
+  const QuiltLayout layout = layout_for(count);
+  const int width = views.front().width(), height = views.front().height();
+  const double scale = std::min({1., static_cast<double>(widest_px) / (layout.columns * width),
+                                 static_cast<double>(widest_px) / (layout.rows * height)});
+  const PictureSize size{static_cast<int>(width * scale), static_cast<int>(height * scale)};
+  std::vector<Image<Rgb8>> smaller;
+  if (scale < 1)
+    for (const Image<Rgb8>& view : views) smaller.push_back(reduced(view, size));
+  const std::string quilt =
+      encode_jpeg(make_quilt(scale < 1 ? std::span<const Image<Rgb8>>(smaller) : views, layout), quality);
+
+  SharedPicture shared{.width = size.width, .height = size.height};
+  shared.parts.push_back({"views", {quilt.begin(), quilt.end()}});
+  shared.still_jpeg = still_of(scale < 1 ? smaller[smaller.size() / 2] : views[views.size() / 2]);
+  // Two eyes look at views that are an eighth of all apart.
+  constexpr int eye_share = 8;
+  const int steps = std::max(count - 1, 1), apart = std::max(steps / eye_share, 1);
+  shared.facts = text_of({{"kind", "views"},
+                          {"title", title},
+                          {"width", size.width},
+                          {"height", size.height},
+                          {"separation", static_cast<double>(apart) / steps},
+                          {"zeroParallax", 0},
+                          {"first", -0.5},
+                          {"last", 0.5},
+                          {"columns", layout.columns},
+                          {"rows", layout.rows},
+                          {"upwards", true},
+                          {"type", "image/jpeg"}});
+  return shared;
+}
+
+}  // namespace wheatstone
