@@ -2,12 +2,6 @@
 
 // Two rows of four pixels of one target, which is a view or a depth plane: the splats of the lists that reach there.
 // Nothing is shared, so that nothing waits. CHANNELS and KERNEL say what a splat adds to a pixel.
-// Variant: CHANNELS=2 KERNEL=1
-// Variant: CHANNELS=2 KERNEL=2
-// Variant: CHANNELS=3 KERNEL=0
-// Variant: CHANNELS=3 KERNEL=1
-// Variant: CHANNELS=3 KERNEL=2
-// Variant: CHANNELS=3 KERNEL=3
 
 layout(local_size_x = 8, local_size_y = 8) in;
 

@@ -76,12 +76,6 @@ void set_pictures(const RenderJob& job, const GpuPictures& pictures, GpuTargets 
 
 std::size_t bytes_a_value(GpuWritten written) { return written == GpuWritten::light ? sizeof(float) : sum_bytes; }
 
-GpuKernel::Spread spread_of(Deposit deposit, bool opaque) {
-  if (opaque) return GpuKernel::disc;
-  if (channels_of(deposit) != deposit) return GpuKernel::spline;
-  return keeps_sums(deposit) ? GpuKernel::mass : GpuKernel::light;
-}
-
 }  // namespace
 
 SplatGatherer::SplatGatherer(const RenderJob& job, const GpuFacts& facts, const GpuPictures& pictures,

@@ -50,14 +50,6 @@ struct ListWork {
   std::array<std::array<float, 4>, most_gpu_views> views{};
 };
 
-/// What a splat adds to a pixel, as splat_weights.glsl tells kernels apart.
-struct GpuKernel {
-  enum Spread : std::int32_t { light = 0, mass = 1, spline = 2, disc = 3 };
-  Spread spread = light;
-  bool counts_rest() const { return spread == mass || spread == spline; }  ///< also counts fractions of a step
-  std::size_t entries_at_once() const { return spread == disc ? 1 : 4; }   ///< entries per iteration of gathering
-};
-
 /// Adds splats to sums in fixed point, of 64 bits and with steps of 2^−28, or makes light of these at once. Projected
 /// splats are sorted into lists once for all targets; then each invocation of a program owns a few pixels of one
 /// target, and gathers the lists that reach there. Made and used within on_gpu().

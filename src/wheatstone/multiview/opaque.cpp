@@ -5,8 +5,8 @@
 
 #include "wheatstone/multiview/deal_out_internal.h"
 #include "wheatstone/multiview/gathered_light_internal.h"
-#include "wheatstone/multiview/half_float_internal.h"
 #include "wheatstone/multiview/renderers_internal.h"
+#include "wheatstone/multiview/splat_internal.h"
 
 namespace wheatstone {
 namespace {

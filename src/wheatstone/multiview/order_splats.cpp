@@ -7,7 +7,7 @@
 #include <cstring>
 #include <utility>
 
-#include "wheatstone/image/srgb.h"
+#include "wheatstone/image/colour.h"
 #include "wheatstone/multiview/splat_internal.h"
 
 namespace wheatstone {
@@ -111,13 +111,6 @@ Cloud last_of(const Cloud& cloud, std::size_t first) {
 }
 
 }  // namespace
-
-Deposit deposit_of(const SplatStyle& splat_style) {
-  if (splat_style.look == Look::thesis) return splat_style.blend == Blend::over ? Deposit::absorbing : Deposit::light;
-  const bool gaussian = splat_style.kernel == Kernel::gaussian;
-  if (splat_style.colour_source == ColourSource::own) return gaussian ? Deposit::colours : Deposit::colours_by_spline;
-  return gaussian ? Deposit::mass : Deposit::mass_by_spline;
-}
 
 PictureTable::PictureTable(const SplatOrders& orders) : pictures(static_cast<int>(orders.size())), first(orders[0]) {
   for (std::size_t i = 0; i < orders.size(); ++i) {

@@ -3,14 +3,11 @@
 // One splat is counted in every list that it stands in, and later written into each of them, in the steps that its light
 // is counted in. CHANNELS and KERNEL say what it adds to a pixel.
 // Variant: STEP=0
-// Variant: STEP=1 CHANNELS=2 KERNEL=1
-// Variant: STEP=1 CHANNELS=2 KERNEL=2
-// Variant: STEP=1 CHANNELS=3 KERNEL=0
-// Variant: STEP=1 CHANNELS=3 KERNEL=1
-// Variant: STEP=1 CHANNELS=3 KERNEL=2
-// Variant: STEP=1 CHANNELS=3 KERNEL=3
 #define COUNTS 0
 #define PLACES 1
+#ifndef STEP
+#define STEP PLACES
+#endif
 
 layout(local_size_x = 64) in;
 

@@ -3,6 +3,7 @@
 #include <tbb/enumerable_thread_specific.h>
 
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -37,7 +38,13 @@ enum class Deposit : std::uint8_t {
 /// Whether splats are spread over areas of pixels, so that their sums are kept; others have a Gaussian's value at the
 /// middle of a pixel.
 constexpr bool keeps_sums(Deposit deposit) { return deposit == Deposit::mass || deposit == Deposit::colours; }
-Deposit deposit_of(const SplatStyle& splat_style);
+/// What particles of an appearance add.
+inline Deposit deposit_of(const SplatStyle& splat_style) {
+  if (splat_style.look == Look::thesis) return splat_style.blend == Blend::over ? Deposit::absorbing : Deposit::light;
+  const bool gaussian = splat_style.kernel == Kernel::gaussian;
+  if (splat_style.colour_source == ColourSource::own) return gaussian ? Deposit::colours : Deposit::colours_by_spline;
+  return gaussian ? Deposit::mass : Deposit::mass_by_spline;
+}
 /// The same deposit with the Gaussian kernel.
 constexpr Deposit channels_of(Deposit deposit) {
   if (deposit == Deposit::mass_by_spline) return Deposit::mass;
@@ -47,6 +54,20 @@ constexpr Deposit channels_of(Deposit deposit) {
 /// Channels of a pixel that splats add to. Mass has two: light, and light times the second number. All others have
 /// four, the last of which may stay 0.
 constexpr int channels_in(Deposit deposit) { return channels_of(deposit) == Deposit::mass ? 2 : 4; }
+
+/// What a splat adds to a pixel, as splat_weights.glsl tells kernels apart.
+struct GpuKernel {
+  enum Spread : std::int32_t { light = 0, mass = 1, spline = 2, disc = 3 };
+  Spread spread = light;
+  bool counts_rest() const { return spread == mass || spread == spline; }  ///< also counts fractions of a step
+  std::size_t entries_at_once() const { return spread == disc ? 1 : 4; }   ///< entries per iteration of gathering
+};
+
+constexpr GpuKernel::Spread spread_of(Deposit deposit, bool opaque) {
+  if (opaque) return GpuKernel::disc;
+  if (channels_of(deposit) != deposit) return GpuKernel::spline;
+  return keeps_sums(deposit) ? GpuKernel::mass : GpuKernel::light;
+}
 
 /// Linear light 0..1 that is packed in 32 bits: the square roots of red and green in eleven bits each, and of blue in
 /// ten.
@@ -177,5 +198,11 @@ std::vector<SplatBlock> order_splats(const Cloud& cloud, ParticleRange range, co
 /// Projects and lights the block's particles, of which there are at least as many as a vector holds.
 void project_particles(const Cloud& cloud, const Projection& projection, const Window& window,
                        const PictureTable& table, ProjectedBlock& block);
+
+/// The value of a half float that is not negative, one at a time: its bits as a float's, whose exponent counts from 112
+/// lower.
+inline float float_from_half(std::uint16_t bits) {
+  return std::bit_cast<float>(static_cast<std::uint32_t>(bits) << 13) * 0x1p112f;
+}
 
 }  // namespace wheatstone

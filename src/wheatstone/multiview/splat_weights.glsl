@@ -1,4 +1,10 @@
 // How much of a splat's light pixels get, along one axis. The twin of deposit_simd.cpp. KERNEL says how it is spread.
+// Variant: CHANNELS=2 KERNEL=1
+// Variant: CHANNELS=2 KERNEL=2
+// Variant: CHANNELS=3 KERNEL=0
+// Variant: CHANNELS=3 KERNEL=1
+// Variant: CHANNELS=3 KERNEL=2
+// Variant: CHANNELS=3 KERNEL=3
 
 #define LIGHT 0   // a Gaussian's value at the middle of a pixel
 #define MASS 1    // the part of a Gaussian over the pixel: parts sum to 1
