@@ -65,11 +65,17 @@ void take(std::span<const std::uint32_t> pixels, int width, int height, DrawnVie
 
 PaintingOnGpu::PaintingOnGpu(const PreparedPainting::Contents& contents) : contents_(contents) {
   on_gpu([&](const GpuFacts&) {
-    kept_ = std::make_unique<Kept>(
-        Kept{GpuSurfaces(contents.surfaces),
-             std::visit([&](const auto& marks) -> decltype(Kept::marks) { return on_gpu_of(marks, contents); },
-                        contents.marks),
-             GpuProgram(count_flags_source)});
+    kept_ = std::make_unique<Kept>(Kept{GpuSurfaces(contents.surfaces),
+                                        std::visit(
+                                            [&](const auto& marks) -> decltype(Kept::marks) {
+                                              if constexpr (requires { on_gpu_of(marks, contents); })
+                                                return on_gpu_of(marks, contents);
+                                              else
+                                                throw Error(ErrorKind::wrong_usage,
+                                                            "graphics processor: draws no marks of this kind");
+                                            },
+                                            contents.marks),
+                                        GpuProgram(count_flags_source)});
   });
 }
 

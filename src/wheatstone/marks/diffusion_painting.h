@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "wheatstone/marks/stroke_painting.h"
@@ -26,6 +27,7 @@ struct ColourLine {
 
 /// A painting of edges as a value: colour is given beside them and spreads over the rest.
 struct DiffusionPainting {
+  static constexpr std::string_view marks_name = "lines";
   int width = 0;  ///< of each view, in pixels
   int height = 0;
   std::vector<ColourPoint> points;

@@ -17,24 +17,6 @@ namespace {
 // What becomes of a disparity that the reference view sees at a place is a function `mapped(x, y, disparity)`. Its kind
 // is a template's parameter, because it is called for every pixel.
 
-template <class Mapped>
-void map_whole_marks(StrokePainting& painting, const Mapped& mapped) {
-  for (Layer& layer : painting.layers)
-    for (Stroke& stroke : layer.strokes) {
-      const ControlPoint& begun = layer.points[stroke.first_point];
-      stroke.disparity = mapped(begun.x, begun.y, stroke.disparity);
-    }
-}
-template <class Mapped>
-void map_whole_marks(RegionPainting& painting, const Mapped& mapped) {
-  for (RegionMark& mark : painting.marks) {
-    const ControlPoint& first = painting.points[painting.rings_of(mark).front().first_point];
-    mark.disparity = mapped(first.x, first.y, mark.disparity);
-  }
-}
-template <class Mapped>
-void map_whole_marks(DiffusionPainting& /*painting*/, const Mapped& /*mapped*/) {}
-
 /// Marks for some views only are for those that now show the same. `gain` is how much more depth there is than before.
 template <class Marks>
 void map_views(Marks& painting, ViewPosition reference, float gain) {
@@ -42,7 +24,7 @@ void map_views(Marks& painting, ViewPosition reference, float gain) {
   const auto mapped = [&](ViewPosition view) {
     return ViewPosition(reference.eye_separations() + (view - reference) / gain);
   };
-  visit_marks(painting, [&](auto& mark) {
+  visit_marks(painting, [&](auto& mark, const auto& /*holder*/) {
     if (mark.views != all_views) mark.views = {mapped(mark.views.first), mapped(mark.views.last)};
   });
 }
@@ -129,7 +111,9 @@ void map_depth(Painting& painting, float gain, const Mapped& mapped) {
   };
   std::visit(
       [&](auto& marks) {
-        map_whole_marks(marks, mapped);
+        visit_own_disparities(marks, [&](float& disparity, const auto& first_point) {
+          disparity = mapped(first_point().x, first_point().y, disparity);
+        });
         visit_points(marks, map_point);
         if (!painting.surfaces.seen.empty()) map_views(marks, reference, gain);
       },

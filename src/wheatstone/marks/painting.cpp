@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <type_traits>
 #include <vector>
 
 #include "wheatstone/marks/visit_points_internal.h"
@@ -26,7 +27,8 @@ class Mover {
       point = {static_cast<float>((static_cast<double>(point.x) + shift_in(reference_view) - to_.left) * to_.scale),
                static_cast<float>((static_cast<double>(point.y) - to_.top) * to_.scale), disparity(point.disparity)};
     });
-    move_whole_marks(marks);
+    visit_own_disparities(marks, [this](float& own, const auto& /*first_point*/) { own = disparity(own); });
+    if constexpr (std::is_same_v<Marks, StrokePainting>) scale_brushes(marks);
     marks.width = to_.width;
     marks.height = to_.height;
   }
@@ -65,20 +67,13 @@ class Mover {
     return static_cast<double>(view - central_view) * static_cast<double>(to_.zero_parallax_px);
   }
 
-  void move_whole_marks(StrokePainting& painting) const {
+  void scale_brushes(StrokePainting& painting) const {
     painting.brush.bristle_px *= scale_;
     for (Layer& layer : painting.layers) {
       layer.radius_px *= scale_;
-      for (Stroke& stroke : layer.strokes) {
-        stroke.radius_px *= scale_;
-        stroke.disparity = disparity(stroke.disparity);
-      }
+      for (Stroke& stroke : layer.strokes) stroke.radius_px *= scale_;
     }
   }
-  void move_whole_marks(RegionPainting& painting) const {
-    for (RegionMark& mark : painting.marks) mark.disparity = disparity(mark.disparity);
-  }
-  void move_whole_marks(DiffusionPainting& /*painting*/) const {}
 
   Placement to_;
   float scale_;
@@ -99,20 +94,17 @@ std::span<const Layer> layers_of(const Painting& painting) {
   return strokes != nullptr ? std::span<const Layer>(strokes->layers) : std::span<const Layer>();
 }
 
-namespace {
-
-MarkCount count_marks(const StrokePainting& painting) {
-  MarkCount counted{"strokes"};
-  for (const Layer& layer : painting.layers) counted.count += count_strokes(layer);
-  return counted;
-}
-MarkCount count_marks(const RegionPainting& painting) { return {"regions", painting.marks.size()}; }
-MarkCount count_marks(const DiffusionPainting& painting) { return {"lines", painting.lines.size()}; }
-
-}  // namespace
-
 MarkCount count_marks(const Painting& painting) {
-  return std::visit([](const auto& marks) { return count_marks(marks); }, painting.marks);
+  return std::visit(
+      [](const auto& marks) {
+        MarkCount counted{marks.marks_name};
+        if constexpr (requires { marks.layers; })
+          for (const Layer& layer : marks.layers) counted.count += count_strokes(layer);
+        else
+          visit_marks(marks, [&](const auto& /*mark*/, const auto& /*holder*/) { ++counted.count; });
+        return counted;
+      },
+      painting.marks);
 }
 
 Painting placed(Painting painting, const Placement& placement) {
@@ -136,28 +128,19 @@ void shift_marks(ViewPosition reference_view, float by_px, Painting& painting) {
   std::visit([&](auto& marks) { visit_points(marks, shift); }, painting.marks);
 }
 
-namespace {
-
-void add_disparities(const StrokePainting& /*painting*/, const Stroke& stroke, std::vector<float>& to) {
-  to.push_back(stroke.disparity);
-}
-void add_disparities(const RegionPainting& /*painting*/, const RegionMark& mark, std::vector<float>& to) {
-  to.push_back(mark.disparity);
-}
-void add_disparities(const DiffusionPainting& painting, const ColourLine& line, std::vector<float>& to) {
-  for (const ColourPoint& point : painting.points_of(line)) to.push_back(point.at.disparity);
-}
-
-}  // namespace
-
 std::vector<float> disparities_of_marks(const Painting& painting) {
   std::vector<float> disparities;
   const auto add = [&](const auto& marks) {
     // Marks for some views only mend what these show of others, unless all of them are: one painting an eye.
     bool any_for_all = false;
-    visit_marks(marks, [&](const auto& mark) { any_for_all = any_for_all || mark.views == all_views; });
-    visit_marks(marks, [&](const auto& mark) {
-      if (!any_for_all || mark.views == all_views) add_disparities(marks, mark, disparities);
+    visit_marks(
+        marks, [&](const auto& mark, const auto& /*holder*/) { any_for_all = any_for_all || mark.views == all_views; });
+    visit_marks(marks, [&](const auto& mark, const auto& holder) {
+      if (any_for_all && mark.views != all_views) return;
+      if constexpr (requires { mark.disparity; })
+        disparities.push_back(mark.disparity);
+      else
+        for (const ColourPoint& point : holder.points_of(mark)) disparities.push_back(point.at.disparity);
     });
   };
   std::visit(add, painting.marks);

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "wheatstone/marks/stroke_painting.h"
@@ -30,6 +31,7 @@ struct RegionMark {
 /// A painting of regions as a value: planned once, drawn for any view. Marks lie in drawing order: first those that
 /// only one eye sees, then the others, each far to near.
 struct RegionPainting {
+  static constexpr std::string_view marks_name = "regions";
   int width = 0;  ///< of each view, in pixels
   int height = 0;
   std::vector<ControlPoint> points;

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "wheatstone/depth/view_position.h"
@@ -72,6 +73,7 @@ inline std::size_t count_strokes(const Layer& layer) {
 /// A painting as a value: made once, drawn for any view. Layers are drawn in their order, coarse to fine, over the
 /// view's photograph or the canvas.
 struct StrokePainting {
+  static constexpr std::string_view marks_name = "strokes";
   int width = 0;  ///< of each view, in pixels
   int height = 0;
   Rgb8 canvas_colour{255, 255, 255};

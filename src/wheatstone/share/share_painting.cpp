@@ -66,9 +66,15 @@ void add_marks(const RegionPainting& painting, const Rounding& rounding, Json& f
   facts["planned"] = facts_of(plans);
 }
 
-/// What the page cannot draw from marks: it gets the pictures that the surfaces' views show.
+/// Kinds of marks that the page draws; of the others, it gets the pictures that the surfaces' views show.
+template <class Marks>
+constexpr bool draws_marks = requires(const Marks& marks, Json& facts, std::vector<PagePart>& parts) {
+  add_marks(marks, Rounding(), facts, parts);
+};
+
 bool needs_pictures(const Painting& painting) {
-  return std::holds_alternative<DiffusionPainting>(painting.marks) || painting.relief.depth_px > 0;
+  const auto is_drawn = []<class Marks>(const Marks& /*marks*/) { return draws_marks<Marks>; };
+  return !std::visit(is_drawn, painting.marks) || painting.relief.depth_px > 0;
 }
 
 /// For each surface the painting as its view shows it, in the surface's own columns.
@@ -82,9 +88,6 @@ std::vector<Image<Rgb8>> pictures_on_surfaces(const Painting& painting) {
   }
   return pictures;
 }
-
-void add_marks(const DiffusionPainting& /*painting*/, const Rounding& /*rounding*/, Json& /*facts*/,
-               std::vector<PagePart>& /*parts*/) {}
 
 /// The strokes that some view shows.
 StrokePainting strokes_that_show(const Painting& painting) {
@@ -145,7 +148,10 @@ SharedPicture share_marks(const Painting& painting, const std::string& title, st
   for (const Rounding& rounding : roundings) {
     shared = ground.shared;
     Json facts = ground.facts;
-    std::visit([&](const auto& marks) { add_marks(marks, rounding, facts, shared.parts); }, painting.marks);
+    const auto add = [&]<class Marks>(const Marks& marks) {
+      if constexpr (draws_marks<Marks>) add_marks(marks, rounding, facts, shared.parts);
+    };
+    std::visit(add, painting.marks);
     shared.facts = text_of(facts);
     if (rounding.colour_step > 1)
       shared.note = fmt::format("places of marks are rounded to 1/{} of a pixel, and colours to {} levels of 256",
