@@ -126,10 +126,13 @@ void paint_in_steps(const std::shared_ptr<const Photograph>& photograph, const S
   if (!keeps_fits) fits.clear();
   if (fits.empty() && std::max(left.width(), left.height()) > 2 * coarse_px)
     deliver({std::make_shared<const Painting>(coarse_painting(*known, style, detail, progress)), known});
-  Painting painting = keeps_fits
-                          ? plan_again(known->pictures, *known->geometry, style, fits, progress, widest_views, detail)
-                          : plan_painting(known->pictures, *known->geometry, style, progress, widest_views, detail);
-  deliver({std::make_shared<const Painting>(std::move(painting)), known});
+  const auto plan = [&](ViewRange views) {
+    Painting painting = keeps_fits ? plan_again(known->pictures, *known->geometry, style, fits, progress, views, detail)
+                                   : plan_painting(known->pictures, *known->geometry, style, progress, views, detail);
+    deliver({std::make_shared<const Painting>(std::move(painting)), known});
+  };
+  if (!fits.empty()) plan(ViewRange{});  // what the eyes see first, while the hand goes on
+  plan(widest_views);
 }
 
 std::string paint_whole_film(const WholeFilm& film, const Progress& progress) {

@@ -20,7 +20,8 @@ namespace wheatstone::viewer {
 /// Paints a photograph, coarse at once and then fine: `deliver` gets the photograph with its geometry, where that is
 /// not known yet, then a painting of a small copy, enlarged, then the painting as `wheatstone paint` makes it. The
 /// touches are of its geometry as it was found, and of its detail. `fits` are used and kept for a photograph that is
-/// being touched, unless it is very large; once there are some, the coarse painting is left out. Throws as
+/// being touched, unless it is very large; once there are some, a painting
+/// for the eyes takes the place of the coarse one. Throws as
 /// paint_photograph does; what `progress` throws ends it.
 void paint_in_steps(const std::shared_ptr<const Photograph>& photograph, const Style& style,
                     std::span<const Touch> touches, StrokeFits& fits, const Progress& progress,

@@ -50,7 +50,9 @@ struct Retouched {
   }
 
   Painting anew() const { return plan_painting(still.pictures, geometry(), style, {}, widest_views, detail()); }
-  Painting again() { return plan_again(still.pictures, geometry(), style, fits, {}, widest_views, detail()); }
+  Painting again(ViewRange views = widest_views) {
+    return plan_again(still.pictures, geometry(), style, fits, {}, views, detail());
+  }
 
   SyntheticStill still;
   Style style;
@@ -86,6 +88,16 @@ TEST(PlanAgain, EqualsPlanningAnewForOtherPhotographsStylesAndSizes) {
   EXPECT_EQ(picture.again(), picture.anew()) << "another photograph";
   picture.still = make_synthetic_still({.width = 560, .height = 400, .samples_a_side = 1});
   EXPECT_EQ(picture.again(), picture.anew()) << "another size";
+}
+
+TEST(PlanAgain, EqualsPlanningAnewForTheEyesAndThenForAllViews) {
+  Retouched picture("oil", 320);
+  picture.again();
+  picture.touch();
+  const Painting of_eyes =
+      plan_painting(picture.still.pictures, picture.geometry(), picture.style, {}, ViewRange{}, picture.detail());
+  EXPECT_EQ(picture.again(ViewRange{}), of_eyes);
+  EXPECT_EQ(picture.again(), picture.anew());
 }
 
 class PlanAgainInStyle : public testing::TestWithParam<std::string> {};

@@ -9,6 +9,7 @@ namespace wheatstone {
 /// from that view.
 struct ViewsBeside {
   float left = 0, right = 0;
+  friend bool operator==(const ViewsBeside&, const ViewsBeside&) = default;
 };
 
 /// The surfaces on which strokes lie, in the view in which they are planned.

@@ -49,26 +49,12 @@ bool are_equal(ImageView<const Pixel> a, ImageView<const Pixel> b) {
 
 }  // namespace
 
-bool ViewFit::is_of(const View& now, const FilmFrame& frame, const Style& style_now) const {
-  return style == style_now && views == frame.views.size() && reference_width == frame.views.front().colour.width() &&
+bool ViewFit::holds(const View& now, const Style& style_now, const ViewsBeside& beside_now,
+                    int reference_width_now) const {
+  return style == style_now && reference_width == reference_width_now && beside == beside_now &&
          view.position == now.position && view.frame == now.frame && view.continued == now.continued &&
          are_equal<std::uint8_t>(view.detail, now.detail) && are_equal<std::uint8_t>(view.wanted, now.wanted) &&
          are_equal<float>(view.disparity, now.disparity) && are_equal<Rgb8>(view.colour, now.colour);
-}
-
-void ViewFit::keep(const View& now, const FilmFrame& frame, const Style& style_now,
-                   std::vector<TrackedLayer> planned_now) {
-  view = {copy_of<Rgb8>(now.colour),
-          copy_of<float>(now.disparity),
-          copy_of<std::uint8_t>(now.wanted),
-          now.position,
-          now.frame,
-          now.continued,
-          copy_of<std::uint8_t>(now.detail)};
-  style = style_now;
-  reference_width = frame.views.front().colour.width();
-  views = frame.views.size();
-  planned = std::move(planned_now);
 }
 
 Refit::Refit(const LayerPlan& plan, const PaintedPicture& canvas, std::size_t blocks, LayerFit& before)

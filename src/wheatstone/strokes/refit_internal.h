@@ -59,15 +59,15 @@ struct LayerFit {
 
 /// What planning a view leaves behind.
 struct ViewFit {
-  std::vector<LayerFit> layers;
   View view;  ///< as it was; owns its images
   Style style;
+  ViewsBeside beside;
   int reference_width = 0;
-  std::size_t views = 0;  ///< of the scene
+  std::vector<LayerFit> layers;
   std::vector<TrackedLayer> planned;
 
-  bool is_of(const View& now, const FilmFrame& frame, const Style& style_now) const;
-  void keep(const View& now, const FilmFrame& frame, const Style& style_now, std::vector<TrackedLayer> planned_now);
+  /// Whether planning would give the same.
+  bool holds(const View& now, const Style& style_now, const ViewsBeside& beside_now, int reference_width_now) const;
 };
 
 /// A layer that is fitted again: which pixels differ from the last time, in what is wanted of them or in what is

@@ -475,12 +475,29 @@ StrokePainting shown_painting(const FilmFrame& frame, const Style& style, const 
   return painting;
 }
 
-void make_room(std::size_t views, std::size_t layers, StrokeFits& fits) {
-  fits.resize(views);
-  for (std::shared_ptr<ViewFit>& fit : fits) {
-    if (fit == nullptr) fit = std::make_shared<ViewFit>();
-    fit->layers.resize(layers);
+/// What is kept of each of a scene's views.
+std::vector<ViewFit*> fits_of(std::span<const View> views, std::size_t layers, StrokeFits& fits) {
+  std::vector<ViewFit*> of_views;
+  for (const View& view : views) {
+    const auto found = std::ranges::find_if(fits, [&](const std::shared_ptr<ViewFit>& fit) {
+      return fit->view.position == view.position && std::ranges::find(of_views, fit.get()) == of_views.end();
+    });
+    ViewFit& fit = found != fits.end() ? **found : *fits.emplace_back(std::make_shared<ViewFit>());
+    fit.view.position = view.position;
+    fit.layers.resize(layers);
+    of_views.push_back(&fit);
   }
+  return of_views;
+}
+
+/// A view that owns its images.
+View copy_of_view(const View& view) {
+  View copy = view;
+  copy.colour = copy_of<Rgb8>(view.colour);
+  copy.disparity = copy_of<float>(view.disparity);
+  copy.wanted = copy_of<std::uint8_t>(view.wanted);
+  copy.detail = copy_of<std::uint8_t>(view.detail);
+  return copy;
 }
 
 }  // namespace
@@ -501,24 +518,29 @@ CarriedPainting plan_strokes(const FilmFrame& frame, const Style& style, const C
     result.counts.before = living_strokes(memory);
     carry(frame, style, options, memory);
   }
-  if (fits != nullptr) make_room(frame.views.size(), layers, *fits);
+  // The numbers of traced strokes depend on the strokes before them.
+  std::vector<ViewFit*> kept;
+  if (fits != nullptr && style.marks == Marks::fitted_strokes) kept = fits_of(frame.views, layers, *fits);
   std::vector<Layer> repairs(frame.views.size());
   ViewsPlan plan(progress, frame.views.size(), layers);
   plan.run([&](std::size_t view) {
     plan.report_step();
     const View& own = frame.views[view];
-    ViewFit* const fit = fits != nullptr ? (*fits)[view].get() : nullptr;
-    if (fit != nullptr && fit->is_of(own, frame, style)) {
+    ViewFit* const fit = kept.empty() ? nullptr : kept[view];
+    const ViewsBeside beside = options.goes_on || view != 0 ? ViewsBeside() : views_beside(frame.views);
+    const int reference_width = frame.views.front().colour.width();
+    if (fit != nullptr && fit->holds(own, style, beside, reference_width)) {
       memory.views[view] = fit->planned;
     } else {
       StrokeNumbers numbers(memory.last_number, view, frame.views.size());
-      ViewPainter painter(own, frame.views.front(), style, scene_begins ? nullptr : &frame.flow->backward,
-                          options.goes_on || view != 0 ? ViewsBeside() : views_beside(frame.views), numbers);
+      ViewPainter painter(own, frame.views.front(), style, scene_begins ? nullptr : &frame.flow->backward, beside,
+                          numbers);
       for (std::size_t i = 0; i < layers; ++i) {
         painter.plan(static_cast<int>(i), options, memory.views[view][i], fit != nullptr ? &fit->layers[i] : nullptr);
         plan.report_step();
       }
-      if (fit != nullptr) fit->keep(own, frame, style, memory.views[view]);
+      if (fit != nullptr)
+        *fit = {copy_of_view(own), style, beside, reference_width, std::move(fit->layers), memory.views[view]};
       if (!scene_begins) repairs[view] = painter.repairs();
     }
     for (TrackedLayer& tracked : memory.views[view]) {
