@@ -264,7 +264,7 @@ window=''
 # The mode and the files stay from one session to the next, but for scripts.
 export XDG_CONFIG_HOME=$folder/kept
 kept_file=$XDG_CONFIG_HOME/Wheatstone/wheatstone-view.conf
-for session in 1 2; do
+for _ in 1 2; do
   "$view" painted/painting.wst --size 480x400 2>errors.txt &
   window=$!
   xdotool search --sync --onlyvisible --pid "$window" >found.txt

@@ -2,9 +2,9 @@
 # A subject's session in the window, with real keys: killed, resumed, data complete. With `long`, all 78 trials of the
 # built-in design, killed twice.
 #
-#   study_test.sh WHEATSTONE_VIEW WHEATSTONE [long]
+#   study_test.sh WHEATSTONE [long]
 set -euo pipefail
-view=$1 wheatstone=$2 length=${3:-short}
+wheatstone=$1 length=${2:-short}
 if ! command -v Xvfb >/dev/null || ! command -v xdotool >/dev/null; then
   echo "study_test: Xvfb or xdotool is not installed, so that a session is not tested"
   exit 0
@@ -57,7 +57,7 @@ fi
 table=data/sub-02/beh/sub-02_task-paths_beh.tsv
 
 begin() {
-  "$wheatstone" study run "$design" --subject 2 --screen-width 30cm -o data "$@" >>told.txt 2>err.txt &
+  "$wheatstone" study run "$design" --subject 2 --screen-width 30cm -o data >>told.txt 2>err.txt &
   session=$!
   for _ in {1..500}; do
     window=$(xdotool search --onlyvisible --name '^Wheatstone$' 2>/dev/null | head -1 || true)

@@ -70,11 +70,12 @@ void hide(const Hiding& hiding, int first_row, Band& band) {
     std::uint8_t* of_reference = band.is_of_reference.data() + begin;
     for (int x = 0; x * samples < band.columns; ++x) {
       const int y = first_row + row;
-      std::fill_n(below + x * samples, samples,
+      const std::ptrdiff_t offset = std::ptrdiff_t{x} * samples;
+      std::fill_n(below + offset, samples,
                   least_seen_disparity(farthest_about(hiding.surface, x, y), hiding.tolerance_px) + hides_px);
       const bool is_reference = !hiding.reference.empty() &&
                                 is_of_reference(hiding.surface(x, y), hiding.reference(x, y), hiding.tolerance_px);
-      std::fill_n(of_reference + x * samples, samples, static_cast<std::uint8_t>(is_reference ? 1 : 0));
+      std::fill_n(of_reference + offset, samples, static_cast<std::uint8_t>(is_reference ? 1 : 0));
     }
     for (int line = 1; line < samples; ++line) {
       std::copy_n(below, band.columns, below + static_cast<std::ptrdiff_t>(line) * band.columns);

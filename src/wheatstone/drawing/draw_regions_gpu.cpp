@@ -105,7 +105,7 @@ GpuBuffer GpuRegions::draw(const GpuSurfaces& surfaces, const GpuBuffer& planes,
   // The samples of so many rows are held at once.
   constexpr std::size_t most_bytes = std::size_t{1} << 26;
   const std::size_t bytes_a_row =
-      samples_a_side * samples_a_side * static_cast<std::size_t>(width) * count * sizeof(float);
+      static_cast<std::size_t>(width) * samples_a_side * samples_a_side * count * sizeof(float);
   const int rows_at_once = static_cast<int>(std::clamp<std::size_t>(most_bytes / bytes_a_row, 1, height));
   const GpuBuffer disparities(rows_at_once * bytes_a_row), shown(rows_at_once * bytes_a_row);
   for (int first_row = 0; first_row < height; first_row += rows_at_once) {

@@ -83,7 +83,7 @@ PaintingOnGpu::~PaintingOnGpu() {
   try {
     on_gpu([&](const GpuFacts&) { kept_.reset(); });
   } catch (const Error&) {
-    kept_.release();  // without its context nothing is left of it
+    static_cast<void>(kept_.release());  // without its context nothing is left of it
   }
 }
 

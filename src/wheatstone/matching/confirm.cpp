@@ -55,7 +55,7 @@ namespace {
 /// like disparity. None of them is in `seen` before, all are afterwards.
 void find_patch(const Image<float>& disparity, std::size_t first, std::vector<bool>& seen,
                 std::vector<std::size_t>& patch) {
-  constexpr auto same_surface = static_cast<long>(2 * sixteenths_a_px);
+  constexpr long same_surface = 2L * sixteenths_a_px;
   const auto width = static_cast<std::size_t>(disparity.width());
   const std::span<const float> values = disparity.pixels();
   // Sixteenths, so that patches do not depend on the last bits of a disparity.
@@ -67,8 +67,8 @@ void find_patch(const Image<float>& disparity, std::size_t first, std::vector<bo
   };
   patch.assign(1, first);
   seen[first] = true;
-  for (std::size_t i = 0; i < patch.size(); ++i) {
-    const std::size_t at = patch[i], x = at % width;
+  for (std::size_t next = 0; next < patch.size();) {  // the patch grows
+    const std::size_t at = patch[next++], x = at % width;
     if (x > 0) step_to(at, at - 1);
     if (x + 1 < width) step_to(at, at + 1);
     if (at >= width) step_to(at, at - width);

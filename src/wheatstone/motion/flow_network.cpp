@@ -34,7 +34,7 @@ Image<float> at_size(const cv::Mat& map, cv::Size frame, double scale) {
 }
 
 cv::Mat reduced_for_network(ImageView<const Rgb8> picture, double size) {
-  const cv::Mat whole = as_mat(picture);
+  cv::Mat whole = as_mat(picture);
   if (size >= 1) return whole;
   return shrunk(whole, size);
 }

@@ -101,7 +101,7 @@ std::string hdf5_text(hid_t object, const std::string& attribute) {
   if (H5Sget_simple_extent_npoints(space) != 1) return {};
   std::string text(H5Tget_size(type), '\0');
   if (H5Aread(opened, type, text.data()) < 0) return {};
-  return text.c_str();  // up to where it is filled up with zeros
+  return text.substr(0, text.find('\0'));  // the rest is filled with zeros
 }
 
 std::vector<std::string> hdf5_datasets(hid_t group) {

@@ -70,7 +70,7 @@ std::vector<GalleryEntry> gallery_entries(const fs::path& folder) {
   std::vector<GalleryEntry> entries;
   std::error_code error;
   for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder, error)) {
-    const fs::path page = entry.path();
+    const fs::path& page = entry.path();
     const fs::path picture = fs::path(page).replace_extension(".jpg");
     if (page.extension() != ".html" || !fs::exists(picture)) continue;
     const std::string name = page.lexically_relative(folder).generic_string();

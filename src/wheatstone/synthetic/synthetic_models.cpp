@@ -74,7 +74,7 @@ Point3 on_knot(double t) {
 
 Model make_knot(std::size_t triangles) {
   const auto around = std::max(8u, static_cast<std::uint32_t>(std::sqrt(static_cast<double>(triangles) / 24)));
-  const auto along = std::max(60u, static_cast<std::uint32_t>(triangles / (2 * around)));
+  const auto along = std::max(60u, static_cast<std::uint32_t>(triangles / (std::size_t{2} * around)));
   Model model;
   model.materials.push_back({"paint", {1, 1, 1}});
   for (std::uint32_t i = 0; i <= along; ++i) {

@@ -81,9 +81,11 @@ Rgb8 render_moving_pixel(std::span<const View> moments, int x, int y, int sample
   for (int moment = 0; moment < count; ++moment) {
     const View& view = moments[moment];
     PixelSamples pixel{view.scene(), view.cameras(), view};
-    for (int i = moment; i < samples * samples; i += count)
-      pixel.add(static_cast<float>(x) + (static_cast<float>(i % samples) + 0.5f) * share,
-                static_cast<float>(y) + (static_cast<float>(i / samples) + 0.5f) * share);
+    for (int i = moment; i < samples * samples; i += count) {
+      const int column = i % samples, row = i / samples;
+      pixel.add(static_cast<float>(x) + (static_cast<float>(column) + 0.5f) * share,
+                static_cast<float>(y) + (static_cast<float>(row) + 0.5f) * share);
+    }
     sum += pixel.sum;
   }
   return encoded_mean(sum, samples * samples);
