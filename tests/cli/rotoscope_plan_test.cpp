@@ -13,7 +13,6 @@
 namespace wheatstone::rotoscope_plan_test {
 
 namespace fs = std::filesystem;
-using testing::HasSubstr;
 using Words = std::vector<std::string>;
 
 constexpr int frame_count = 18;

@@ -11,8 +11,7 @@
 #include "wheatstone/painting/present.h"
 #include "wheatstone/synthetic/synthetic_models.h"
 
-namespace wheatstone {
-namespace model_pictures_test {
+namespace wheatstone::model_pictures_test {
 
 ReadyModel ready(Model model) {
   ReadyModel made{.read = {.model = std::move(model), .format = "made"}};
@@ -91,5 +90,4 @@ TEST(ModelPictures, APaintedModelIsBareNowhere) {
   }
 }
 
-}  // namespace model_pictures_test
-}  // namespace wheatstone
+}  // namespace wheatstone::model_pictures_test

@@ -80,12 +80,14 @@ class PlainBristles {
  private:
   /// The cover of the brush's picture, 0..1, between four pixels of the level for the stroke's width.
   float of_picture(const OnStroke& place) const {
-    const auto& [columns, rows, first] = BrushPicture::sizes[static_cast<std::size_t>(brush_level(stroke_.radius_px))];
+    const BrushPicture::Level& level = BrushPicture::sizes[static_cast<std::size_t>(brush_level(stroke_.radius_px))];
+    const int columns = level.columns, rows = level.rows;
     const float side = stroke_.seed % 2 == 1 ? -1.f : 1.f;
     const float x = (place.along + stroke_.radius_px) / (stroke_.length + 2 * stroke_.radius_px);
     const float y = (1 + side * place.across / stroke_.radius_px) / 2;
     const auto pixel = [&](int column, int row) {
-      return static_cast<float>(brush_.picture.levels[first + static_cast<std::size_t>(row * columns + column)]) / 255;
+      const std::size_t at = level.first + static_cast<std::size_t>(row * columns + column);
+      return static_cast<float>(brush_.picture.levels[at]) / 255;
     };
     const float column = std::clamp(x * static_cast<float>(columns) - 0.5f, 0.f, static_cast<float>(columns - 1));
     const float row = std::clamp(y * static_cast<float>(rows) - 0.5f, 0.f, static_cast<float>(rows - 1));
@@ -147,10 +149,10 @@ Image<Rgb8> draw_plainly(const StrokePainting& painting, ViewPosition view) {
                            std::clamp(unbound, least, most) * (layer.flat.along[to] - layer.flat.along[from]),
                        course_x * py - course_y * px, 0.6f * course_y - 0.8f * course_x};
           }
-          const auto [cover, share, tone] = PlainBristles(stroke, brush).at(nearest);
-          const float alpha = stroke.opacity * cover;
+          const PlainBristles::Paint paint = PlainBristles(stroke, brush).at(nearest);
+          const float alpha = stroke.opacity * paint.cover;
           const auto lay = [&](float own, float change, float& level) {
-            level += (std::clamp(own + share * change + tone, 0.f, 255.f) - level) * alpha;
+            level += (std::clamp(own + paint.share * change + paint.tone, 0.f, 255.f) - level) * alpha;
           };
           lay(stroke.red, stroke.red_change, red);
           lay(stroke.green, stroke.green_change, green);

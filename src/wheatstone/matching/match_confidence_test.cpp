@@ -45,7 +45,7 @@ StereoPair before_a_plain_wall() {
   for (const int eye : {0, 1}) {
     for (int y = 0; y < height; ++y) {
       for (int x = 0; x < width; ++x) {
-        const auto at = [](int value) { return static_cast<std::uint64_t>(value + 4096); };
+        const auto at = [](int value) { return static_cast<std::uint64_t>(value) + 4096; };
         const int on_box = x + eye * 30;
         const bool box = on_box >= 190 && on_box < 330 && y >= 90 && y < 290;
         const float paper = 200 * unit_float(hash_keys({at(on_box / 3), at(y / 3), 5}));

@@ -13,7 +13,11 @@
 
 namespace wheatstone::match_network_test {
 
-using namespace tiny_network;
+using tiny_network::message;
+using tiny_network::model;
+using tiny_network::node;
+using tiny_network::value;
+using tiny_network::weights;
 
 /// Disparity = (the left picture's red + the right one's) / 8.
 std::string two_inputs(int width, int height) {

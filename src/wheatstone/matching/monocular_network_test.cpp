@@ -8,7 +8,11 @@
 
 namespace wheatstone::monocular_network_test {
 
-using namespace tiny_network;
+using tiny_network::message;
+using tiny_network::model;
+using tiny_network::node;
+using tiny_network::red_of_one_picture;
+using tiny_network::value;
 
 /// Red below, none above.
 Image<Rgb8> picture(int width, int height) {

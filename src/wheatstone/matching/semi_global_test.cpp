@@ -24,7 +24,7 @@ constexpr int past_band = 1 << 20;
 StereoPair grainy_step(int width, int height) {
   StereoPair pair{Image<Rgb8>(width, height), Image<Rgb8>(width, height)};
   const auto value = [](int x, int y, std::uint64_t kind) {
-    const auto key = [](int at) { return static_cast<std::uint64_t>(at + 4096); };
+    const auto key = [](int at) { return static_cast<std::uint64_t>(at) + 4096; };
     return unit_float(hash_keys({key(x / 2), key(y / 2), kind}));
   };
   for (int y = 0; y < height; ++y) {

@@ -23,8 +23,10 @@ struct Splat {
 /// Splats 30 pixels apart, each at another place within its pixel.
 std::vector<Splat> lone_splats(float radius_px, float light = 0.8f) {
   std::vector<Splat> splats;
-  for (int i = 0; i < 12; ++i)
-    splats.push_back({20.5 + 30 * (i % 6) + 0.31 * i, 30.5 + 50 * (i / 6) + 0.17 * i, radius_px, light});
+  for (int i = 0; i < 12; ++i) {
+    const int column = i % 6, row = i / 6;
+    splats.push_back({20.5 + 30 * column + 0.31 * i, 30.5 + 50 * row + 0.17 * i, radius_px, light});
+  }
   return splats;
 }
 

@@ -4,8 +4,7 @@
 
 #include "wheatstone/models/model.h"
 
-namespace wheatstone {
-namespace crease_normals_test {
+namespace wheatstone::crease_normals_test {
 
 /// A cube of side 2 around 0, of eight vertices.
 Model cube() {
@@ -57,5 +56,4 @@ TEST(CreaseNormals, SmoothOverVerticesThatOnlyDifferInTheirPlaceInATexture) {
   EXPECT_EQ(model.normals[0], model.normals[3]);
 }
 
-}  // namespace crease_normals_test
-}  // namespace wheatstone
+}  // namespace wheatstone::crease_normals_test

@@ -41,11 +41,22 @@ bool begins_as_obj(const Beginning& file) {
   return word == "mtllib" || file.bytes.starts_with("v ") || file.bytes.find("\nv ") != std::string::npos;
 }
 
+/// Up to its last line, which the importer would look for without end; empty where there is none.
+std::string_view ply_header(std::string_view text) {
+  constexpr std::string_view last = "end_header", before = "\r\n", behind = " \t\r\n";
+  for (std::size_t at = text.find(last); at != std::string_view::npos; at = text.find(last, at + 1)) {
+    const std::size_t end = at + last.size();
+    if (at > 0 && before.find(text[at - 1]) != std::string_view::npos && end < text.size() &&
+        behind.find(text[end]) != std::string_view::npos)
+      return text.substr(0, at);
+  }
+  return {};
+}
+
 /// A header that names faces, of which there are some.
 bool begins_as_ply_with_faces(const Beginning& file) {
-  std::string_view text = file.bytes;
+  const std::string_view text = ply_header(file.bytes);
   if (!text.starts_with("ply\n") && !text.starts_with("ply\r")) return false;
-  text = text.substr(0, text.find("end_header"));
   const std::size_t faces = text.find("element face ");
   if (faces == std::string_view::npos) return false;
   const std::size_t count = text.find_first_not_of(" 0", faces + std::strlen("element face "));

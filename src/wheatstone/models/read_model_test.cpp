@@ -16,8 +16,7 @@
 #include "wheatstone/pictures/write_image.h"
 #include "wheatstone/synthetic/synthetic_models.h"
 
-namespace wheatstone {
-namespace read_model_test {
+namespace wheatstone::read_model_test {
 
 template <class Number>
 void append(std::string& bytes, Number value) {
@@ -177,6 +176,13 @@ TEST_F(ReadModelTest, BadFilesAreRefusedInOneLine) {
   expect_refused("huge.stl", stl(1, 3e38f), "expected a number from -1e18 to 1e18");
   expect_refused("index.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 2147483648\n", "index.obj");
   expect_refused("index.ply", ply("0 0 0 1 1 1\n1 0 0 1 1 1\n0 1 0 1 1 1\n", "3 0 1 2147483647\n", 3, 1), "index.ply");
+  // The importer would look for the end of the header as long as it is let.
+  const std::string begun = ply("0 0 0 1 1 1\n1 0 0 1 1 1\n0 1 0 1 1 1\n", "3 0 1 2\n", 3, 1);
+  for (const char* instead : {"", "end_headers\n", "comment end_header\n"}) {
+    std::string unended = begun;
+    unended.replace(unended.find("end_header\n"), std::strlen("end_header\n"), instead);
+    expect_refused("unended.ply", unended, "no model");
+  }
   expect_error(ErrorKind::bad_input, "missing.obj", [&] { read_model(folder_ / "missing.obj"); });
   expect_error(ErrorKind::bad_input, "no model", [&] { read_model(file("table.txt", "1 2 3\n")); });
 }
@@ -217,5 +223,4 @@ TEST_F(ReadModelTest, CanBeInterrupted) {
   });
 }
 
-}  // namespace read_model_test
-}  // namespace wheatstone
+}  // namespace wheatstone::read_model_test

@@ -11,7 +11,12 @@
 
 namespace wheatstone::flow_network_test {
 
-using namespace tiny_network;
+using tiny_network::message;
+using tiny_network::model;
+using tiny_network::node;
+using tiny_network::red_of_one_picture;
+using tiny_network::value;
+using tiny_network::weights;
 
 /// Across, the first frame's red less the second's; down, a quarter of the first one's green: the flow of no real film,
 /// but another for each order of the frames.

@@ -35,7 +35,7 @@ Scene scene_of(const Cloud& cloud, float parallax_px) {
   CloudStatistics statistics;
   statistics.add(cloud);
   Scene scene;
-  scene.camera = {.focal_px = 90, .centre_x_px = width / 2, .centre_y_px = height / 2, .nearest_depth = 0.1f};
+  scene.camera = {.focal_px = 90, .centre_x_px = width / 2.f, .centre_y_px = height / 2.f, .nearest_depth = 0.1f};
   scene.mapping.points = {{1, -parallax_px}, {3, parallax_px}};
   scene.splat_style = make_splat_style({.look = Look::thesis}, statistics);
   return scene;
@@ -49,7 +49,7 @@ std::vector<Image<Rgb8>> views_of(const Cloud& cloud, float parallax_px, std::op
 
 TEST(Focus, OfTheWholeScreenIsMoreDepth) {
   const Cloud cloud = haze();
-  const Focus everywhere{.x_px = width / 2, .y_px = height / 2, .radius_px = 1e5f, .gain = 1.5f};
+  const Focus everywhere{.x_px = width / 2.f, .y_px = height / 2.f, .radius_px = 1e5f, .gain = 1.5f};
   const auto with_focus = views_of(cloud, 12, everywhere);
   const auto deeper = views_of(cloud, 18, {});
   const auto usual = views_of(cloud, 12, {});

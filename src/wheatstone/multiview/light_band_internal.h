@@ -36,7 +36,8 @@ class LightBand {
   std::ptrdiff_t stride() const { return static_cast<std::ptrdiff_t>(lines_a_row_) * 16; }  ///< floats a row
   /// Column `left()` of a row; columns from −margin to width + margin may be written. Aligned as cache lines are.
   float* row(int row) {
-    return lines_[static_cast<std::size_t>(row) * lines_a_row_ + first_line_].values + margin * channels_;
+    return lines_[static_cast<std::size_t>(row) * lines_a_row_ + first_line_].values +
+           std::ptrdiff_t{margin} * channels_;
   }
   const float* row(int row) const { return const_cast<LightBand*>(this)->row(row); }
   void darken() {

@@ -176,8 +176,9 @@ TEST(Mass, ColumnDensityIsTheIntegralAlongTheLine) {
       for (int column = 0; column < reference.width(); ++column) {
         if (std::hypot(column + 0.5 - x, row + 0.5 - y) > radius * px + 1) continue;
         for (int sample = 0; sample < 4; ++sample) {
-          const double dx = column + (sample % 2 + 0.5) / 2 - x;
-          const double dy = row + (sample / 2 + 0.5) / 2 - y;
+          const int right = sample % 2, below = sample / 2;
+          const double dx = column + (right + 0.5) / 2 - x;
+          const double dy = row + (below + 0.5) / 2 - y;
           reference(column, row) += cloud.mass[i] * projected_kernel(std::hypot(dx, dy) / px, radius) / 4;
         }
       }

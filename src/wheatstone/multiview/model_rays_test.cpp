@@ -13,8 +13,7 @@
 
 // The renderer against rays that Embree casts: through the places of the samples, from where a view is taken.
 
-namespace wheatstone {
-namespace model_rays_test {
+namespace wheatstone::model_rays_test {
 
 constexpr int width = 200, height = 150;
 
@@ -210,5 +209,4 @@ TEST(ModelRays, DisparityIsTheProjectionOfThePoint) {
   EXPECT_LE(worst, 1.f / 128);
 }
 
-}  // namespace model_rays_test
-}  // namespace wheatstone
+}  // namespace wheatstone::model_rays_test

@@ -11,8 +11,7 @@
 #include "wheatstone/multiview/triangle_band_internal.h"
 #include "wheatstone/synthetic/synthetic_models.h"
 
-namespace wheatstone {
-namespace model_views_test {
+namespace wheatstone::model_views_test {
 
 constexpr int width = 160, height = 120;
 
@@ -301,5 +300,4 @@ TEST(ModelViews, OptionsWithoutSenseAreRefused) {
   expect_error(ErrorKind::wrong_usage, "parallax", [&] { render_model(model, scene, rig()); });
 }
 
-}  // namespace model_views_test
-}  // namespace wheatstone
+}  // namespace wheatstone::model_views_test

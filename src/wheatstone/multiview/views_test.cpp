@@ -134,9 +134,10 @@ TEST(Layered, IsWithin45DecibelsOfExactInEveryView) {
 Cloud lone_particles() {
   Cloud cloud;
   for (std::uint64_t i = 0; i < 40; ++i) {
+    const std::uint64_t column = i % 8, row = i / 8;
     cloud.x.push_back(random(i, 1));
-    cloud.y.push_back(static_cast<float>(i % 8) / 8 + 0.05f * random(i, 2));
-    cloud.z.push_back(static_cast<float>(i / 8) / 5 + 0.05f * random(i, 3));
+    cloud.y.push_back(static_cast<float>(column) / 8 + 0.05f * random(i, 2));
+    cloud.z.push_back(static_cast<float>(row) / 5 + 0.05f * random(i, 3));
     cloud.density.push_back(1);
     cloud.temperature.push_back(1e5f);
   }

@@ -93,11 +93,13 @@ TEST(Select, MovesAPointToTheMiddleOfAPeriodicBox) {
 TEST(SphDensity, OfALatticeIsOne) {
   Cloud cloud;
   cloud.box_size = 10;
-  for (int i = 0; i < 1000; ++i) {
-    cloud.x.push_back(static_cast<float>(i % 10) + 0.5f);
-    cloud.y.push_back(static_cast<float>(i / 10 % 10) + 0.5f);
-    cloud.z.push_back(static_cast<float>(i / 100) + 0.5f);
-  }
+  for (int z = 0; z < 10; ++z)
+    for (int y = 0; y < 10; ++y)
+      for (int x = 0; x < 10; ++x) {
+        cloud.x.push_back(static_cast<float>(x) + 0.5f);
+        cloud.y.push_back(static_cast<float>(y) + 0.5f);
+        cloud.z.push_back(static_cast<float>(z) + 0.5f);
+      }
   estimate_density(cloud, 33);
   const auto [least, most] = std::ranges::minmax(cloud.density);
   EXPECT_NEAR(least, 1, 0.12);  // its sides are like its middle: the box is periodic

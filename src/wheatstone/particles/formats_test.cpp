@@ -18,7 +18,6 @@
 namespace wheatstone::formats_test {
 
 using testing::ElementsAre;
-using testing::FloatNear;
 
 /// Bytes of numbers, in either byte order.
 class Bytes {
@@ -144,8 +143,9 @@ TEST(Npy, AllXAllYAndAllZAreRefusedWithAHintUnlessTheyCanBeNothingElse) {
   Bytes by_axis;
   Bytes by_particle;
   for (int i = 0; i < 6000; ++i) {
+    const int axis = i % 3, particle = i / 3;
     by_axis.put(static_cast<float>(i));
-    by_particle.put(static_cast<float>(i % 3 * 2000 + i / 3));
+    by_particle.put(static_cast<float>(axis * 2000 + particle));
   }
   const Bytes* of_order[] = {&by_axis, &by_particle};
   for (const bool fortran : {false, true}) {

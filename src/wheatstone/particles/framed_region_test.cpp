@@ -9,7 +9,6 @@
 namespace wheatstone::framed_region_test {
 
 using testing::ElementsAre;
-using testing::FloatNear;
 
 Cloud cube(std::size_t count) {
   Cloud cloud;

@@ -18,9 +18,7 @@
 
 namespace wheatstone::positions_test {
 
-using testing::DoubleNear;
 using testing::ElementsAre;
-using testing::Pointwise;
 
 /// Coordinates of 2000 points within ±size/2 of the offset, rounded as double precision has them there.
 std::vector<double> cluster(double size, double offset) {

@@ -30,7 +30,7 @@ std::string display_p3() {
   constexpr double srgb_curve[] = {2.4, 1 / 1.055, 0.055 / 1.055, 1 / 12.92, 0.04045};
   cmsToneCurve* curve = cmsBuildParametricToneCurve(nullptr, 4, srgb_curve);
   cmsToneCurve* curves[] = {curve, curve, curve};
-  const std::string bytes = saved(cmsCreateRGBProfile(&white, &primaries, curves));
+  std::string bytes = saved(cmsCreateRGBProfile(&white, &primaries, curves));
   cmsFreeToneCurve(curve);
   return bytes;
 }
@@ -38,7 +38,7 @@ std::string display_p3() {
 std::string grey_gamma(double gamma) {
   const cmsCIExyY white{0.3127, 0.3290, 1};
   cmsToneCurve* curve = cmsBuildGamma(nullptr, gamma);
-  const std::string bytes = saved(cmsCreateGrayProfile(&white, curve));
+  std::string bytes = saved(cmsCreateGrayProfile(&white, curve));
   cmsFreeToneCurve(curve);
   return bytes;
 }

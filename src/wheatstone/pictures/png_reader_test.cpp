@@ -120,7 +120,7 @@ TEST(PngReader, SaysOfDamagedPixelsWhatIsWrong) {
     }
     const OpenedPicture opened = open_png_bytes(damaged, StoredAlpha::kept_apart);
     ASSERT_TRUE(opened.reader);
-    std::vector<std::uint8_t> pixels(width * height * 3);
+    std::vector<std::uint8_t> pixels(std::size_t{3} * width * height);
     if (opened.reader->read(pixels.data())) continue;
     EXPECT_NE(opened.reader->complaint(), "");
     ++refused;

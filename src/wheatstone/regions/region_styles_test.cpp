@@ -184,7 +184,7 @@ TEST(Posterise, CoversACurvedSurfaceOfOneColour) {
   Image<float> disparity(width, height);
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
-      const float from_middle = static_cast<float>(x) / (width / 2) - 1;
+      const float from_middle = static_cast<float>(x) / (width / 2.f) - 1;
       disparity(x, y) = 12 - 10 * from_middle * from_middle;
     }
   const Image<Rgb8> grey(width, height, {120, 120, 120});

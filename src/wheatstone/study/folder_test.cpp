@@ -19,7 +19,6 @@ namespace wheatstone::folder_test {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 using testing::MatchesRegex;
-using testing::Not;
 
 const StudyDesign& design() {
   static const StudyDesign loaded = load_study_design("path-searching-2");
