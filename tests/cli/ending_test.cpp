@@ -2,10 +2,10 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <signal.h>
-#include <time.h>
 
 #include <chrono>
+#include <csignal>
+#include <ctime>
 #include <exception>
 #include <filesystem>
 #include <fstream>

@@ -200,7 +200,7 @@ fs::path example_input(const std::string& name) {
   static const TemporaryFolder folder;
   const auto maker = makers().find(name);
   if (maker == makers().end()) return {};
-  const fs::path path = folder / name;
+  fs::path path = folder / name;
   if (!fs::exists(path)) maker->second(path);
   return path;
 }

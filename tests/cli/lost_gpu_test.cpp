@@ -45,7 +45,7 @@ std::string render_and_lose() {
   };
   rendered("cpu");
   pass_for_real_and_be_lost_after(0);
-  const std::string errors = rendered("auto");
+  std::string errors = rendered("auto");
   for (const char* const view : {"/view_000.png", "/view_099.png"})
     need(read_image(folder / ("auto" + std::string(view))) == read_image(folder / ("cpu" + std::string(view))), view);
   return errors;

@@ -83,7 +83,7 @@ TEST(MeasureFilmCommand, CountsWrongPixelsOfTheMeanAndTheWorstFrame) {
   const ProgramResult table = run_in(folder, line);
   EXPECT_THAT(table.output, testing::ContainsRegex("painted .* 2\\.50 % +10\\.00 %"));
   std::vector<std::string> as_json = line;
-  as_json.push_back("--json");
+  as_json.emplace_back("--json");
   const auto facts = nlohmann::json::parse(run_in(folder, as_json).output);
   const auto& wrong = facts["films"][0]["wrong"];
   EXPECT_DOUBLE_EQ(wrong["mean_share"], 0.025);

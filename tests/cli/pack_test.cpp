@@ -35,7 +35,7 @@ void put_still(const TemporaryFolder& folder) {
 }
 
 ProgramResult run_in(const TemporaryFolder& folder, const std::vector<std::string>& words) {
-  const ProgramResult result = run_program(words, {.folder = folder / ""});
+  ProgramResult result = run_program(words, {.folder = folder / ""});
   EXPECT_EQ(result.exit_code, 0) << result.errors;
   return result;
 }

@@ -12,7 +12,7 @@
 namespace wheatstone::render_test {
 
 ProgramResult run_in(const TemporaryFolder& folder, const std::vector<std::string>& arguments) {
-  const ProgramResult result = run_program(arguments, {.folder = folder / "."});
+  ProgramResult result = run_program(arguments, {.folder = folder / "."});
   EXPECT_EQ(result.exit_code, 0) << result.errors;
   return result;
 }

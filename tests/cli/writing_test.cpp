@@ -1,11 +1,11 @@
 // What is written: the same bytes on every run, and nothing at all where it does not fit.
 
 #include <gtest/gtest.h>
-#include <signal.h>
 #include <sys/resource.h>
 
 #include <algorithm>
 #include <chrono>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <map>

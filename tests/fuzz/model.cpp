@@ -6,23 +6,22 @@
 // The first byte says which: a file of one of the formats, or what the child process hands on, which is not trusted
 // either.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  using namespace wheatstone;
   if (size == 0) return 0;
   constexpr const char* endings[] = {".obj", ".ply", ".stl", ".glb", ".gltf"};
   const std::size_t which = data[0] % 6;
   try {
     if (which < 5) {
-      read_model(fuzz::as_file(data + 1, size - 1, endings[which]));
+      wheatstone::read_model(wheatstone::fuzz::as_file(data + 1, size - 1, endings[which]));
     } else {
-      RawModel raw;
-      FieldReader reader({reinterpret_cast<const char*>(data + 1), size - 1}, "damaged");
+      wheatstone::RawModel raw;
+      wheatstone::FieldReader reader({reinterpret_cast<const char*>(data + 1), size - 1}, "damaged");
       reader(raw);
       reader.expect_end();
-      ReadModel read;
-      assemble_model(raw, "model.obj", {}, read);
+      wheatstone::ReadModel read;
+      wheatstone::assemble_model(raw, "model.obj", {}, read);
     }
-  } catch (const Error&) {
+  } catch (const wheatstone::Error&) {
   }
-  if (which < 5) std::filesystem::remove(fuzz::as_file(data, 0, endings[which]));
+  if (which < 5) std::filesystem::remove(wheatstone::fuzz::as_file(data, 0, endings[which]));
   return 0;
 }

@@ -1,5 +1,7 @@
+#include <assimp/BaseImporter.h>
 #include <assimp/GltfMaterial.h>
 #include <assimp/config.h>
+#include <assimp/importerdesc.h>
 #include <assimp/material.h>
 #include <assimp/mesh.h>
 #include <assimp/postprocess.h>
@@ -13,6 +15,7 @@
 #include <fstream>
 #include <iterator>
 #include <memory>
+#include <sstream>
 #include <utility>
 
 #include "wheatstone/models/model_folder_internal.h"
@@ -161,6 +164,21 @@ RawMaterial raw_material(const aiScene& scene, const aiMaterial& material) {
   return raw;
 }
 
+bool reads(const aiImporterDesc* reader, const std::string& format) {
+  if (reader == nullptr) return false;
+  std::istringstream endings(reader->mFileExtensions);
+  return std::find(std::istream_iterator<std::string>(endings), {}, format) != std::istream_iterator<std::string>();
+}
+
+/// Where the content is not what the name says, the library would try its other readers, of some seventy formats.
+void keep_readers_of(const std::string& format, Assimp::Importer& importer) {
+  for (std::size_t i = importer.GetImporterCount(); i-- > 0;) {
+    if (reads(importer.GetImporterInfo(i), format)) continue;
+    const std::unique_ptr<Assimp::BaseImporter> left_out(importer.GetImporter(i));
+    importer.UnregisterLoader(left_out.get());
+  }
+}
+
 void import_model(const std::string& file, const std::string& format, RawModel& model) {
   std::string bytes = bytes_of(file);
   // The importer keeps coordinates in single precision.
@@ -168,6 +186,7 @@ void import_model(const std::string& file, const std::string& format, RawModel& 
   if (format == "obj") moved_by = move_to_origin(bytes);
   const std::string shown_as = "model." + format;
   Assimp::Importer importer;
+  keep_readers_of(format, importer);
   importer.SetIOHandler(
       std::make_unique<ModelFolder>(file, shown_as, std::move(bytes), model.missing).release());  // it owns it
   importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);

@@ -182,6 +182,7 @@ TEST_F(ReadModelTest, BadFilesAreRefusedInOneLine) {
     std::string unended = begun;
     unended.replace(unended.find("end_header\n"), std::strlen("end_header\n"), instead);
     expect_refused("unended.ply", unended, "no model");
+    expect_refused("unended.glb", unended, "cannot be read as glb");
   }
   expect_error(ErrorKind::bad_input, "missing.obj", [&] { read_model(folder_ / "missing.obj"); });
   expect_error(ErrorKind::bad_input, "no model", [&] { read_model(file("table.txt", "1 2 3\n")); });
