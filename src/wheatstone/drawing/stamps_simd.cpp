@@ -46,7 +46,7 @@ HWY_INLINE std::size_t write_line(const ColumnRun& columns, std::size_t first, s
   stamps.first_values[line] = static_cast<std::uint32_t>(first) + static_cast<std::uint32_t>(from - columns.begin);
   stamps.begins[line] = from;
   stamps.ends[line] = from < to ? to + 1 : from;
-  return first + 2 * Stamps::margin + static_cast<std::size_t>(to - columns.begin);
+  return first + std::size_t{2} * Stamps::margin + static_cast<std::size_t>(to - columns.begin);
 }
 
 /// The share of the colour's change and the tone of some pixels, beside their levels.
@@ -85,7 +85,7 @@ void make_stamp(const StrokeInBand& of, int width, const RowsOfStamp& wanted, Di
   stamp.made |= wanted.rows;
   std::size_t next = stamps.values.size() - Stamps::slack, most = next + 2 * Stamps::slack;
   for (int row = band.first_row; row < band.end_row; ++row)
-    most += 2 * Stamps::margin + static_cast<std::size_t>(std::max(band.end[row] - band.begin[row], 0));
+    most += std::size_t{2} * Stamps::margin + static_cast<std::size_t>(std::max(band.end[row] - band.begin[row], 0));
   stamps.values.resize(most);
   if (of.varies()) {
     stamps.shares.resize(most);
@@ -249,10 +249,11 @@ template <bool tested, bool varies>
 HWY_INLINE void lay_rows_under(const StampInBand& of, const SeenLines& seen, int number, std::uint32_t rows,
                                FrontToBackAccumulator& accumulator) {
   constexpr int block_px = FrontToBackAccumulator::block_px;
+  const std::ptrdiff_t first_column = std::ptrdiff_t{number} * block_px;
   const Floats f;
   const Paint<varies> paint(of.paint);
-  const std::uint16_t* levels = of.stamps.values.data() + number * block_px;
-  const float* hidden_below = tested ? of.hidden_below.pixels.data() + number * block_px : nullptr;
+  const std::uint16_t* levels = of.stamps.values.data() + first_column;
+  const float* hidden_below = tested ? of.hidden_below.pixels.data() + first_column : nullptr;
   const std::ptrdiff_t stride = of.band.stride;
   FrontToBackAccumulator::Block* blocks = &accumulator.block(0, number);
   std::uint16_t* open_columns = accumulator.open_columns_of(number);
@@ -271,7 +272,7 @@ HWY_INLINE void lay_rows_under(const StampInBand& of, const SeenLines& seen, int
       cover = hn::IfThenElseZero(lanes_of(seen.columns[i] >> x), cover);
       PaintHere here{cover, cover, cover};
       if constexpr (varies) {
-        const std::ptrdiff_t value = number * block_px + seen.levels[i] + x;
+        const std::ptrdiff_t value = first_column + seen.levels[i] + x;
         const float fraction = static_cast<float>(seen.fraction[i]) / Fractions::count;
         here.share = hn::Mul(interpolated(fraction, of.stamps.shares.data() + value), hn::Set(f, 1.f / 255));
         here.tone = hn::MulAdd(interpolated(fraction, of.stamps.tones.data() + value), hn::Set(f, 0.5f),
