@@ -33,7 +33,7 @@ class PlannedFilm : public testing::Test {
     options.scene = FilmScene::beams;
     for (int i = 0; i < film_frames; ++i) {
       const StereoPair eyes = make_synthetic_film_frame(options, i + 2).pictures;
-      writer.write({put_together(eyes.left, eyes.right, StereoLayout::left_right), 2 * i, {1, 25}, 2});
+      writer.write({put_together(eyes.left, eyes.right, StereoLayout::left_right), std::int64_t{2} * i, {1, 25}, 2});
     }
     writer.finish();
   }
