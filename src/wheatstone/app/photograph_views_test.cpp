@@ -54,8 +54,10 @@ TEST(PhotographViews, LieInFramesOfAnotherShape) {
   DisplayViewsOptions narrow = three_views(1);
   narrow.width = width / 2;
   const auto squeezed = draw_photograph_views(still().pictures, still().geometry, narrow, 0.5);
-  for (const int x : {20, 80, 140})
-    EXPECT_NEAR(squeezed[1](x, 120).g, (square[1](2 * x, 120).g + square[1](2 * x + 1, 120).g) / 2, 12);
+  for (const int x : {20, 80, 140}) {
+    const int both = square[1](2 * x, 120).g + square[1](2 * x + 1, 120).g;
+    EXPECT_NEAR(squeezed[1](x, 120).g, both / 2., 12);
+  }
 }
 
 }  // namespace wheatstone::photograph_views_test

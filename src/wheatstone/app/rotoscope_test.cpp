@@ -238,9 +238,7 @@ TEST(Rotoscope, SizesThatChangeAreRefused) {
 /// Changes the `place`-th value in a record of options, through all structs in it; false where there are fewer.
 template <class Value>
 bool change_value(Value& value, int& place) {
-  if constexpr (std::is_same_v<Value, std::string>) {
-    if (place-- == 0) value += "x";
-  } else if constexpr (std::is_same_v<Value, std::filesystem::path>) {
+  if constexpr (std::is_same_v<Value, std::string> || std::is_same_v<Value, std::filesystem::path>) {
     if (place-- == 0) value += "x";
   } else if constexpr (std::is_same_v<Value, bool>) {
     if (place-- == 0) value = !value;

@@ -98,7 +98,7 @@ TEST(Lenticular, EverySubPixelComesFromItsView) {
 
 TEST(Lenticular, WholeRowsStayExactAcrossTheWidestScreen) {
   const LenticularScreen screen{.width = 32768, .height = 9, .pitch = 52.1, .slope = 5.9, .center = -0.4, .dpi = 283};
-  std::vector<std::uint16_t> row(3 * 32768);
+  std::vector<std::uint16_t> row(std::size_t{3} * 32768);
   for (const int views : {9, 100, 65535}) {
     views_of_row(screen, views, 4, row);
     int off = 0;
@@ -153,7 +153,7 @@ TEST(Lenticular, NamedScreensGiveEachViewItsShareOfEachColour) {
     // A part of the screen in which the pattern repeats a whole number of times.
     const int columns = 360;
     const int rows = 360;
-    std::vector<std::uint16_t> row(3 * columns);
+    std::vector<std::uint16_t> row(std::size_t{3} * columns);
     std::vector<std::array<int, 3>> count(views);
     for (int y = 0; y < rows; ++y) {
       views_of_row(screen, views, y, row);

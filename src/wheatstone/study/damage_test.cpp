@@ -175,14 +175,14 @@ std::vector<Damage> damages_of_description() {
   std::vector<Damage> damages;
   for (const std::string& text : {std::string(), std::string("[]"), std::string("null"), std::string("{}"),
                                   std::string("{\"Simulated\": true"), std::string("{\"Simulated\": 1}"),
-                                  std::string("{\"Simulated\": \"true\"}"), std::string("{\"Simulated\": null}"),
+                                  std::string(R"({"Simulated": "true"})"), std::string(R"({"Simulated": null})"),
                                   std::string("{\"Simulated\": [true]}"), std::string("{\"simulated\": true}"),
                                   std::string("\xff\xfe{}"), std::string("{\"Simulated\": true, \"Name\": \"\xff\"}"),
                                   std::string("{\"Simulated\": true}}"), std::string("{'Simulated': true}"), deep})
     damages.push_back({paths, description, instead(text), none});
   damages.push_back({paths, description, [](const std::string& text) { return text.substr(0, 20); }, none});
   damages.push_back(
-      {paths, description, replace("\"Simulated\": true", "\"Simulated\": false, \"Simulated\": 0"), none});
+      {paths, description, replace(R"("Simulated": true)", R"("Simulated": false, "Simulated": 0)"), none});
   return damages;
 }
 

@@ -171,7 +171,7 @@ TEST(StudyDesign, NamesThatCannotBeToldApartAreRefused) {
       "name = 'p'\ntask_label = 'p'\ntask = 'rating'\nsubjects = 2\nrepetitions = 1\n[[factor]]\nname = 'v'\n"
       "levels = [1, 2]\n[pictures]\nleft = '{item}_{v}.png'\n";
   expect_refused_design(pictures + "items = ['a', 'a']", "items: expected 'a' once only");
-  expect_refused_design(pictures + "items = ['a', \"b\\tc\"]", "items: expected names without control characters");
+  expect_refused_design(pictures + R"(items = ['a', "b\tc"])", "items: expected names without control characters");
   expect_refused_design(pictures + "items = ['a', ['b']]", "items: expected names");
 }
 

@@ -42,8 +42,10 @@ bool hide_each_other(const PathGraph& graph, std::size_t a, std::size_t b, const
 std::string broken_rule(const PathGraph& graph, const PathGraphOptions& options) {
   const std::size_t group = graph.nodes.size() / 3;
   if (graph.nodes.size() != static_cast<std::size_t>(options.nodes)) return "number of nodes";
-  for (std::size_t node = 0; node < graph.nodes.size(); ++node)
-    if (graph.nodes[node][2] != options.depth_mm / 2 * (static_cast<float>(node / group) - 1)) return "depth planes";
+  for (std::size_t node = 0; node < graph.nodes.size(); ++node) {
+    const std::size_t plane = node / group;
+    if (graph.nodes[node][2] != options.depth_mm / 2 * (static_cast<float>(plane) - 1)) return "depth planes";
+  }
   std::map<int, std::set<int>> links_of_leaf;
   for (const auto& [leaf, intermediate] : graph.links) {
     if (static_cast<std::size_t>(leaf) / group == 1 || static_cast<std::size_t>(intermediate) / group != 1)
@@ -127,23 +129,23 @@ TEST(PathGraph, ADamagedFileIsNamedWithWhatIsWrong) {
            {"\"seed\":7", "\"seed\":7.5", "seed: expected"},
            {"\"seed\":7", "\"seed\":true", "seed: expected"},
            {"\"seed\":7", "\"seed\":1e400", no_graph},
-           {"\"seed\":7", "\"seed\":\"7\"", "seed: expected"},
+           {R"("seed":7)", R"("seed":"7")", "seed: expected"},
            {"\"seed\":7,", "", no_graph},
            {"\"connected\":false", "\"connected\":0", "connected: expected true or false"},
            {"\"connected\":false", "\"connected\":null", "connected: expected true or false"},
            {"\"connected\":false", "\"connected\":true", "connected: expected false: no path of two links"},
            {whole, connected(), "connected: expected true: a path of two links is there"},
            {"\"highlighted\":[", "\"highlighted\":[0,", "highlighted: expected lists of 2 values"},
-           {"\"highlighted\":[", "\"highlighted\":[],\"h\":[", "highlighted: expected lists of 2 values"},
-           {"\"highlighted\":[", "\"highlighted\":[3,3],\"h\":[", "highlighted: expected two different nodes"},
-           {"\"highlighted\":[", "\"highlighted\":[3,90],\"h\":[", "highlighted: expected whole numbers from 0 to 89"},
-           {"\"highlighted\":[", "\"highlighted\":[3,-1],\"h\":[", "highlighted: expected whole numbers from 0 to 89"},
+           {R"("highlighted":[)", R"("highlighted":[],"h":[)", "highlighted: expected lists of 2 values"},
+           {R"("highlighted":[)", R"("highlighted":[3,3],"h":[)", "highlighted: expected two different nodes"},
+           {R"("highlighted":[)", R"("highlighted":[3,90],"h":[)", "highlighted: expected whole numbers from 0 to 89"},
+           {R"("highlighted":[)", R"("highlighted":[3,-1],"h":[)", "highlighted: expected whole numbers from 0 to 89"},
            {"\"node_radius_mm\":4.0", "\"node_radius_mm\":-4", "node_radius_mm: expected numbers from 0.01 to 1000"},
            {"\"node_radius_mm\":4.0", "\"node_radius_mm\":0", "node_radius_mm: expected"},
            {"\"node_radius_mm\":4.0", "\"node_radius_mm\":1e30", "node_radius_mm: expected"},
            {"\"node_radius_mm\":4.0", "\"node_radius_mm\":null", "node_radius_mm: expected"},
            {"\"node_radius_mm\":4.0", "\"node_radius_mm\":NaN", no_graph},
-           {"\"link_radius_mm\":1.0", "\"link_radius_mm\":\"1\"", "link_radius_mm: expected"},
+           {R"("link_radius_mm":1.0)", R"("link_radius_mm":"1")", "link_radius_mm: expected"},
            {"\"link_radius_mm\":1.0", "\"link_radius_mm\":true", "link_radius_mm: expected"},
            {first, "[1e300,0,0]", "nodes_mm: expected numbers from -10000 to 10000"},
            {first, "[1,2]", "nodes_mm: expected lists of 3 values"},
@@ -152,15 +154,15 @@ TEST(PathGraph, ADamagedFileIsNamedWithWhatIsWrong) {
            {first, "[1,2,[3]]", "nodes_mm: expected numbers"},
            {first, "7", "nodes_mm: expected lists of 3 values"},
            {first + ",", "", "links: expected whole numbers from 0 to 88"},
-           {nodes, "\"nodes_mm\":[],\"n\":[", "highlighted: expected whole numbers"},
-           {nodes, "\"nodes_mm\":{},\"n\":[", "highlighted: expected whole numbers"},
+           {nodes, R"("nodes_mm":[],"n":[)", "highlighted: expected whole numbers"},
+           {nodes, R"("nodes_mm":{},"n":[)", "highlighted: expected whole numbers"},
            {links, links + "[1,1],", "links: expected two different nodes"},
            {links, links + "[1,90],", "links: expected whole numbers from 0 to 89"},
            {links, links + "[1,4294967296],", "links: expected whole numbers"},
            {links, links + "[1,1.5],", "links: expected whole numbers"},
            {links, links + "[1,true],", "links: expected whole numbers"},
            {links, links + "[1],", "links: expected lists of 2 values"},
-           {links, "\"links\":[],\"l\":[", "links: expected a list whose number of entries is from 1"}}) {
+           {links, R"("links":[],"l":[)", "links: expected a list whose number of entries is from 1"}}) {
     SCOPED_TRACE(damage.from.substr(0, 40) + " -> " + damage.to.substr(0, 40));
     expect_error(ErrorKind::bad_input, "graph.json: " + damage.message,
                  [&] { graph_from_json(damaged(whole, damage.from, damage.to), "graph.json"); });
