@@ -1,13 +1,17 @@
 #include "wheatstone/models/model_format_internal.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cctype>
 #include <cstring>
 #include <fstream>
+#include <sstream>
 #include <string>
 #include <system_error>
 
+#include "wheatstone/error.h"
 #include "wheatstone/models/read_model.h"
 
 namespace wheatstone {
@@ -105,14 +109,20 @@ const KnownFormat* format_of_name(const std::filesystem::path& path) {
   return found == formats.end() ? nullptr : found;
 }
 
-const KnownFormat* format_of_content(const std::filesystem::path& path) {
+Beginning beginning_of(const std::filesystem::path& path) {
   std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error)) return nullptr;
   std::ifstream file(path, std::ios::binary);
   constexpr std::size_t most = 1 << 16;  // comments may come first
   Beginning beginning{std::string(most, '\0'), std::filesystem::file_size(path, error)};
   file.read(beginning.bytes.data(), most);
   beginning.bytes.resize(static_cast<std::size_t>(file.gcount()));
+  return beginning;
+}
+
+const KnownFormat* format_of_content(const std::filesystem::path& path) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) return nullptr;
+  const Beginning beginning = beginning_of(path);
   const auto* const found = std::ranges::find_if(formats, [&](const KnownFormat& f) { return f.begins_so(beginning); });
   return found == formats.end() ? nullptr : found;
 }
@@ -122,6 +132,27 @@ const KnownFormat* format_of_content(const std::filesystem::path& path) {
 bool holds_model(const std::filesystem::path& path) { return format_of_content(path) != nullptr; }
 
 bool is_named_as_model(const std::filesystem::path& path) { return format_of_name(path) != nullptr; }
+
+void check_ply_counts(const std::filesystem::path& path) {
+  const Beginning file = beginning_of(path);
+  std::string header(ply_header(file.bytes));
+  std::ranges::replace(header, '\r', '\n');
+  std::istringstream lines(header);
+  std::uint64_t all = 0;
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream words(line);
+    std::string word, name;
+    std::uint64_t count = 0;
+    words >> word >> name >> count;  // the largest where it is too large
+    if (word != "element") continue;
+    all += std::min(count, file.length + 1);
+    if (all > file.length)
+      throw Error(ErrorKind::bad_input,
+                  fmt::format("{}: its header tells of {} elements '{}', more than {} bytes hold, expected a file that "
+                              "is not damaged",
+                              path.string(), count, name, file.length));
+  }
+}
 
 const ModelFormat* format_of_model(const std::filesystem::path& path) {
   const KnownFormat* format = format_of_content(path);

@@ -14,4 +14,8 @@ struct ModelFormat {
 /// The format of a file by its content, or else by its name; null where it is no model.
 const ModelFormat* format_of_model(const std::filesystem::path& path);
 
+/// Throws Error{bad_input} where the header of a PLY file tells of more elements than the file has bytes: the importer
+/// would count them all.
+void check_ply_counts(const std::filesystem::path& path);
+
 }  // namespace wheatstone

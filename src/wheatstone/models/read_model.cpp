@@ -17,6 +17,7 @@ ReadModel read_model(const std::filesystem::path& path, const ModelChoice& choic
   if (format == nullptr)
     throw Error(ErrorKind::bad_input,
                 fmt::format("{}: is no model, expected OBJ, PLY with faces, STL or glTF 2", path.string()));
+  if (format->ending == std::string_view("ply")) check_ply_counts(path);
   ReadModel read;
   read.format = format->name;
   read.bytes = std::filesystem::file_size(path);

@@ -190,8 +190,13 @@ TEST_F(ReadModelTest, BadFilesAreRefusedInOneLine) {
 
 TEST_F(ReadModelTest, AbsurdCountsTakeNoMemoryOfThisProcess) {
   const std::string three = "0 0 0 1 1 1\n1 0 0 1 1 1\n0 1 0 1 1 1\n";
-  expect_refused("faces.ply", ply(three, "3 0 1 2\n", 3, 2147483647), "faces.ply");
-  expect_refused("vertices.ply", ply(three, "3 0 1 2\n", 2147483647, 1), "vertices.ply");
+  expect_refused("faces.ply", ply(three, "3 0 1 2\n", 3, 2147483647), "2147483647 elements 'face'");
+  expect_refused("vertices.ply", ply(three, "3 0 1 2\n", 2147483647, 1), "2147483647 elements 'vertex'");
+  std::string of_nothing = ply(three, "3 0 1 2\n", 3, 1);
+  of_nothing.insert(of_nothing.find("end_header"), "element nothing 2147483647\n");
+  expect_refused("nothing.ply", of_nothing, "2147483647 elements 'nothing'");
+  of_nothing.replace(of_nothing.find("2147483647"), 10, "100000000000000000001");
+  expect_refused("more.ply", of_nothing, "elements 'nothing'");
 }
 
 TEST_F(ReadModelTest, LimitsOfTheChildHold) {
