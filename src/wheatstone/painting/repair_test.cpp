@@ -100,7 +100,8 @@ Image<Rgb8> with_glow() {
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
       constexpr float bright = 80, sigma_px = 16;
-      const float from_middle = std::hypot(static_cast<float>(x - width / 2), static_cast<float>(y - height / 2));
+      const int right = x - width / 2, below = y - height / 2;
+      const float from_middle = std::hypot(static_cast<float>(right), static_cast<float>(below));
       const float added = bright * std::exp(-0.5f * from_middle * from_middle / (sigma_px * sigma_px));
       const auto level = static_cast<std::uint8_t>(80 + added);
       picture(x, y) = {level, level, level};

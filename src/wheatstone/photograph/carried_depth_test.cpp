@@ -35,8 +35,7 @@ std::string with_depth(const std::string& attributes, std::string_view map) {
 TEST(CarriedDepth, OfGoogleIsReadInBothItsFormats) {
   const TemporaryFolder folder;
   const std::string map = encode_jpeg(level_map(), 95);
-  put_bytes(folder / "inverse.jpg",
-            with_depth("GDepth:Format=\"RangeInverse\" GDepth:Near=\"1\" GDepth:Far=\"9\"", map));
+  put_bytes(folder / "inverse.jpg", with_depth(R"(GDepth:Format="RangeInverse" GDepth:Near="1" GDepth:Far="9")", map));
   std::optional<CarriedDepth> found = find_carried_depth(folder / "inverse.jpg");
   ASSERT_TRUE(found);
   EXPECT_TRUE(carries_depth(folder / "inverse.jpg"));
@@ -47,7 +46,7 @@ TEST(CarriedDepth, OfGoogleIsReadInBothItsFormats) {
   EXPECT_NEAR(found->depth(9, height - 2), 0, 0.02);
 
   write_image(folder / "map.png", level_map());
-  put_bytes(folder / "linear.jpg", with_depth("GDepth:Format=\"RangeLinear\" GDepth:Near=\"1.5\" GDepth:Far=\"9\"",
+  put_bytes(folder / "linear.jpg", with_depth(R"(GDepth:Format="RangeLinear" GDepth:Near="1.5" GDepth:Far="9")",
                                               bytes_of(folder / "map.png")));
   found = find_carried_depth(folder / "linear.jpg");
   ASSERT_TRUE(found);
@@ -102,7 +101,7 @@ TEST(CarriedDepth, ThatIsDamagedIsRefused) {
   };
   refused(with_depth("GDepth:Format=\"Waves\"", map), "a.jpg: its depth map has the format 'Waves'");
   refused(with_depth("GDepth:Format=\"RangeLinear\"", map), "no number for Near");
-  refused(with_depth("GDepth:Format=\"RangeLinear\" GDepth:Near=\"5\" GDepth:Far=\"2\"", map), "between 5 and 2");
+  refused(with_depth(R"(GDepth:Format="RangeLinear" GDepth:Near="5" GDepth:Far="2")", map), "between 5 and 2");
   refused(with_depth(inverse, map.substr(0, map.size() / 2)), "ends too early");
   refused(with_depth(inverse, "text"), "neither PNG nor JPEG");
   refused(with_segments(photograph(), packet_segment(inverse + " GDepth:Data=\"*\"")), "not base64");

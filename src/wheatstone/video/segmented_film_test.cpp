@@ -20,13 +20,13 @@ namespace wheatstone::segmented_film_test {
 namespace fs = std::filesystem;
 
 constexpr int frame_count = 50;
-constexpr SegmentOptions by_eight{.frames_per_segment = 8};
+const SegmentOptions by_eight{.frames_per_segment = 8};
 
 /// A source with uneven times, read as a long job would read it.
 class Source {
  public:
   Frame next() {
-    const Frame frame{moving_picture(64, 48, number_), pts_, {1, 90000}, 1501 * (1 + number_ % 3)};
+    Frame frame{moving_picture(64, 48, number_), pts_, {1, 90000}, std::int64_t{1501} * (1 + number_ % 3)};
     pts_ += frame.duration;
     ++number_;
     return frame;

@@ -17,7 +17,7 @@ void make_stereo_film(const std::filesystem::path& path, StereoLayout layout, bo
   for (int i = 0; i < 12; ++i) {
     const Image<Rgb8> left = moving_picture(96, 54, i), right = moving_picture(96, 54, i, eye_shift);
     if (traits.arrangement == Arrangement::in_time) {
-      writer.write({traits.right_first ? right : left, 2 * i, {1, 50}, 1});
+      writer.write({traits.right_first ? right : left, std::int64_t{2} * i, {1, 50}, 1});
       writer.write({traits.right_first ? left : right, 2 * i + 1, {1, 50}, 1});
     } else {
       writer.write({put_together(left, right, layout), i, {1, 25}, 1});
