@@ -46,7 +46,8 @@ TEST(BrushPicture, EachLevelIsTheMeanOfTheFinerOne) {
   for (std::size_t l = 1; l < BrushPicture::sizes.size(); ++l) {
     const auto mean = [&](const BrushPicture::Level& level) {
       const auto begin = brush.levels.begin() + static_cast<std::ptrdiff_t>(level.first);
-      return std::accumulate(begin, begin + level.columns * level.rows, 0.) / (level.columns * level.rows);
+      const int pixels = level.columns * level.rows;
+      return std::accumulate(begin, begin + pixels, 0.) / pixels;
     };
     EXPECT_NEAR(mean(BrushPicture::sizes[l]), mean(BrushPicture::sizes[l - 1]), 0.5);
   }
