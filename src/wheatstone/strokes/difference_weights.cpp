@@ -21,17 +21,20 @@ std::int32_t luminance_in_steps(int red, int green, int blue) {
   return (299 * red + 587 * green + 114 * blue + 50) / (1000 / steps_of_level);
 }
 
-/// Sums of luminances, and of their squares, over the rows of a window, by column.
+/// Sums of luminances, and of their squares, over the rows of a window, by column, with a window's reach of empty
+/// columns on both sides.
 struct ColumnSums {
-  explicit ColumnSums(int width) : values(static_cast<std::size_t>(width)), squares(static_cast<std::size_t>(width)) {}
+  explicit ColumnSums(int width) : values(static_cast<std::size_t>(width + 2 * window_reach_px)), squares(values) {}
 
   void change(const ReferencePicture& picture, int y, int sign) {
     if (y < 0 || y >= picture.red.height()) return;
     const auto red = picture.red.row(y), green = picture.green.row(y), blue = picture.blue.row(y);
-    for (std::size_t x = 0; x < values.size(); ++x) {
+    std::int32_t* const value = values.data() + window_reach_px;
+    std::int32_t* const square = squares.data() + window_reach_px;
+    for (std::size_t x = 0; x < red.size(); ++x) {
       const std::int32_t luminance = luminance_in_steps(red[x], green[x], blue[x]);
-      values[x] += sign * luminance;
-      squares[x] += sign * luminance * luminance;
+      value[x] += sign * luminance;
+      square[x] += sign * luminance * luminance;
     }
   }
 
@@ -50,21 +53,22 @@ float weight_of(float mean, float variance) {
 
 void weigh_row(const ColumnSums& sums, int rows_in_window, std::span<float> weights) {
   constexpr float of_step = FitColour::luminance_step / steps_of_level;
+  constexpr int last = 2 * window_reach_px;  // column of a window
   const int width = static_cast<int>(weights.size());
-  const auto weigh = [&](int x, int first, int end) {
-    std::int32_t value = 0, square = 0;
-    for (int i = first; i < end; ++i) {
-      value += sums.values[i];
-      square += sums.squares[i];
-    }
-    const float share = 1 / static_cast<float>((end - first) * rows_in_window);
+  std::int32_t value = 0, square = 0;
+  for (int i = 0; i < last; ++i) {
+    value += sums.values[i];
+    square += sums.squares[i];
+  }
+  for (int x = 0; x < width; ++x) {
+    value += sums.values[x + last];
+    square += sums.squares[x + last];
+    const float share = 1 / static_cast<float>(in_window(x, width) * rows_in_window);
     const float mean = of_step * share * static_cast<float>(value);
     weights[x] = weight_of(mean, of_step * of_step * share * static_cast<float>(square) - mean * mean);
-  };
-  const int inner_end = std::max(width - window_reach_px, window_reach_px);
-  for (int x = 0; x < std::min(window_reach_px, width); ++x) weigh(x, 0, std::min(x + window_reach_px + 1, width));
-  for (int x = window_reach_px; x < inner_end; ++x) weigh(x, x - window_reach_px, x + window_reach_px + 1);
-  for (int x = inner_end; x < width; ++x) weigh(x, x - window_reach_px, width);
+    value -= sums.values[x];
+    square -= sums.squares[x];
+  }
 }
 
 /// The factor on the weight of a difference, by View::detail: the more finely a place is to be painted, the larger.
