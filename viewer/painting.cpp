@@ -121,7 +121,7 @@ void paint_in_steps(const std::shared_ptr<const Photograph>& photograph, const S
   if (!photograph->geometry) deliver({nullptr, known});
   const Image<Rgb8>& left = known->pictures.left;
   const Image<std::uint8_t> detail = retouched_detail(*known, style, touches);
-  constexpr double very_large_px = 1.6e7;
+  constexpr double very_large_px = 6e6;
   const bool keeps_fits = !touches.empty() && static_cast<double>(left.width()) * left.height() <= very_large_px;
   if (!keeps_fits) fits.clear();
   if (fits.empty() && std::max(left.width(), left.height()) > 2 * coarse_px)

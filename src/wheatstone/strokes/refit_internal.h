@@ -43,7 +43,7 @@ struct BlockOutcome {
 };
 
 /// What fitting a layer leaves behind, so that less has to be fitted when some of its picture has changed. About 50
-/// bytes a pixel.
+/// bytes a pixel of the layer.
 struct LayerFit {
   // What must not differ.
   Style style;

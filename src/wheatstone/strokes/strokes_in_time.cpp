@@ -535,8 +535,10 @@ CarriedPainting plan_strokes(const FilmFrame& frame, const Style& style, const C
       StrokeNumbers numbers(memory.last_number, view, frame.views.size());
       ViewPainter painter(own, frame.views.front(), style, scene_begins ? nullptr : &frame.flow->backward, beside,
                           numbers);
+      // Little is fitted in views that no photograph shows, and much would be kept.
+      const bool keeps_layers = fit != nullptr && !own.continued;
       for (std::size_t i = 0; i < layers; ++i) {
-        painter.plan(static_cast<int>(i), options, memory.views[view][i], fit != nullptr ? &fit->layers[i] : nullptr);
+        painter.plan(static_cast<int>(i), options, memory.views[view][i], keeps_layers ? &fit->layers[i] : nullptr);
         plan.report_step();
       }
       if (fit != nullptr)
