@@ -86,7 +86,6 @@ class Refit {
 
  private:
   void compare_row(const LayerPlan& plan, const PaintedPicture& canvas, int y);
-  void compare_orientation(const OrientationField& now);
 
   LayerFit& before_;
   Image<std::uint8_t> differs_;
