@@ -4,7 +4,6 @@
 #include <array>
 #include <cstdint>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "wheatstone/marks/spline.h"
@@ -73,7 +72,6 @@ class FitColours {
  public:
   explicit FitColours(std::size_t count) : luminance_(count), red_(count), blue_(count) {}
   std::size_t size() const { return luminance_.size(); }
-  std::span<const float> luminance() const { return luminance_; }
   FitColour operator[](std::size_t pixel) const { return {luminance_[pixel], red_[pixel], blue_[pixel]}; }
   void set(std::size_t pixel, const FitColour& colour) {
     luminance_[pixel] = colour.luminance;
