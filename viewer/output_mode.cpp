@@ -52,6 +52,16 @@ std::vector<LeakingView> neighbours(const std::vector<ViewPosition>& views, std:
   return found;
 }
 
+template <class Named>
+const Named& find_named(std::span<const Named> all, std::string_view name, std::string_view kind) {
+  const auto found = std::ranges::find(all, name, &Named::name);
+  if (found != all.end()) return *found;
+  std::vector<std::string_view> names;
+  for (const Named& each : all) names.push_back(each.name);
+  throw Error(ErrorKind::wrong_usage,
+              fmt::format("'{}' is no {}, expected one of: {}", name, kind, fmt::join(names, ", ")));
+}
+
 }  // namespace
 
 std::span<const OutputMode> output_modes() {
@@ -59,14 +69,7 @@ std::span<const OutputMode> output_modes() {
   return modes;
 }
 
-const OutputMode& find_output_mode(std::string_view name) {
-  const auto found = std::ranges::find(output_modes(), name, &OutputMode::name);
-  if (found != output_modes().end()) return *found;
-  std::vector<std::string_view> names;
-  for (const OutputMode& mode : output_modes()) names.push_back(mode.name);
-  throw Error(ErrorKind::wrong_usage,
-              fmt::format("'{}' is no output mode, expected one of: {}", name, fmt::join(names, ", ")));
-}
+const OutputMode& find_output_mode(std::string_view name) { return find_named(output_modes(), name, "output mode"); }
 
 bool shows_display_views(const OutputMode& mode) {
   return std::holds_alternative<Quilt>(mode.kind) || std::holds_alternative<Lenticular>(mode.kind);
@@ -137,13 +140,6 @@ std::span<const LookingWith> devices() {
   return known;
 }
 
-const LookingWith& find_device(std::string_view name) {
-  const auto found = std::ranges::find(devices(), name, &LookingWith::name);
-  if (found != devices().end()) return *found;
-  std::vector<std::string_view> names;
-  for (const LookingWith& device : devices()) names.push_back(device.name);
-  throw Error(ErrorKind::wrong_usage,
-              fmt::format("'{}' is no viewing device, expected one of: {}", name, fmt::join(names, ", ")));
-}
+const LookingWith& find_device(std::string_view name) { return find_named(devices(), name, "viewing device"); }
 
 }  // namespace wheatstone::viewer
