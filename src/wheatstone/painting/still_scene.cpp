@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <span>
 #include <utility>
@@ -178,9 +179,11 @@ std::vector<View> make_still_scene(const StereoPairView& photographs, const Ster
   Image<std::uint8_t> right_only = not_told_by_left(geometry);
   scene[1].disparity = hidden_from_left(geometry, right_only);
   scene[1].wanted = std::move(right_only);
-  std::vector<ViewPosition> positions = positions_beside_eyes(photographs.left, wanted);
-  // Between two near things the eyes see different parts of what is behind, and views between them see the rest.
+  // Between two near things the eyes see different parts of what is behind, and views between them see the rest. What
+  // the eyes need stands before the outer views, whose number depends on what is wanted.
+  std::vector<ViewPosition> positions;
   if (!is_large(photographs.left)) positions.push_back(central_view);
+  std::ranges::copy(positions_beside_eyes(photographs.left, wanted), std::back_inserter(positions));
   const std::vector<View> outer = make_views_at(positions, scene, depth_ends(geometry.left_disparity).middle_px());
   scene.insert(scene.end(), outer.begin(), outer.end());
   return scene;

@@ -28,7 +28,8 @@ int block_px(const LayerPlan& plan) {
 struct Cell {
   int left, top, right, bottom;
   std::uint64_t random;
-  std::size_t index;  ///< in its block and pass
+  std::size_t index;        ///< in its block and pass
+  std::uint32_t place = 0;  ///< in the order in which the layer's cells are planned, with gaps
 };
 
 /// Where a stroke is begun: the worst pixel of a cell. Bare pixels are equally bad: chance chooses among them.
@@ -185,11 +186,10 @@ struct Block {
   std::size_t index;  ///< in the order in which blocks are planned
 };
 
-/// Numbers grow in the order in which strokes are painted. A stroke's does not depend on which others there are.
-std::uint32_t number_of(const Block& block, int pass, std::uint64_t random) {
-  constexpr int random_bits = 16;
-  const auto cells = static_cast<std::uint32_t>(fit_passes * static_cast<int>(block.index) + pass);
-  return 1 + (cells << random_bits | static_cast<std::uint32_t>(random >> (64 - random_bits)));
+/// At least as many as a pass over a block has cells.
+std::uint32_t places_a_pass(const LayerPlan& plan) {
+  const auto side = static_cast<std::uint32_t>(static_cast<float>(block_px(plan)) / cell_px(plan)) + 2;
+  return side * side;
 }
 
 /// Plans the strokes of one block, or takes over those of the last time where nothing about a cell differs.
@@ -223,12 +223,15 @@ class BlockPlan {
 
  private:
   void run_pass(int pass, FitTile& tile) {
-    const std::vector<Cell> all = cells_of_block(plan_, tile, block_.left, block_.top, block_.size, pass);
+    // In random order, so that no rows of strokes show.
+    std::vector<Cell> all = cells_of_block(plan_, tile, block_.left, block_.top, block_.size, pass);
+    std::ranges::sort(all, {}, &Cell::random);
+    const std::uint32_t first = places_a_pass(plan_) * static_cast<std::uint32_t>(fit_passes * block_.index + pass);
+    for (std::size_t i = 0; i < all.size(); ++i) all[i].place = first + static_cast<std::uint32_t>(i);
     std::vector<CellOutcome>& outcomes = now_.cells[static_cast<std::size_t>(pass)];
     outcomes.resize(all.size());
     const std::vector<CellOutcome>& known = before_.cells[static_cast<std::size_t>(pass)];
     const auto outcome_before = [&](const Cell& cell) { return known.empty() ? CellOutcome() : known[cell.index]; };
-    // In random order, so that no rows of strokes show.
     std::vector<Cell> cells;
     for (const Cell& cell : all) {
       if (may_gain(plan_, find_anchor(plan_, tile, cell).sum))
@@ -236,15 +239,14 @@ class BlockPlan {
       else
         replace(outcome_before(cell), nullptr);
     }
-    std::ranges::sort(cells, {}, &Cell::random);
     for (const Cell& cell : cells) {
       const CellOutcome before = outcome_before(cell);
       outcomes[cell.index] =
-          known.empty() || differs_about(cell) ? plan_cell(cell, pass, before, tile) : take_over(before, tile);
+          known.empty() || differs_about(cell) ? plan_cell(cell, before, tile) : take_over(before, tile);
     }
   }
 
-  CellOutcome plan_cell(const Cell& cell, int pass, const CellOutcome& before, FitTile& tile) {
+  CellOutcome plan_cell(const Cell& cell, const CellOutcome& before, FitTile& tile) {
     const Anchor anchor = find_anchor(plan_, tile, cell);
     std::optional<FittedStroke> fitted;
     CellOutcome outcome{CellOutcome::Kind::left_out};
@@ -258,7 +260,7 @@ class BlockPlan {
     }
     replace(before, fitted ? &*fitted : nullptr);
     if (!fitted) return outcome;
-    return paint({std::move(*fitted), cell.random, number_of(block_, pass, cell.random)}, tile);
+    return paint({std::move(*fitted), cell.random, 1 + cell.place}, tile);
   }
 
   CellOutcome take_over(const CellOutcome& before, FitTile& tile) {
@@ -339,6 +341,10 @@ std::vector<Block> blocks_of(const LayerPlan& plan) {
 }
 
 }  // namespace
+
+std::uint32_t fitted_places(const LayerPlan& plan) {
+  return places_a_pass(plan) * static_cast<std::uint32_t>(fit_passes * blocks_of(plan).size());
+}
 
 Layer fit_layer(const LayerPlan& plan) {
   const std::vector<Block> blocks = blocks_of(plan);

@@ -134,7 +134,9 @@ void paint_stroke(const FittedStroke& stroke, const LayerPlan& plan, FitTile& ti
 /// Plans the strokes of one layer by fitting each to the picture, on a canvas that holds those before it. A stroke is
 /// kept if it lowers the squared difference between picture and canvas enough. Cells of 1.3 R are visited in two
 /// passes; in each, the pixel that is most wrong begins a stroke. The picture is divided into blocks, which are planned
-/// in four waves, so that the result does not depend on threads. In drawing order.
+/// in four waves, so that the result does not depend on threads. In drawing order; a stroke's number is that of its
+/// cell, from 1 to fitted_places, whatever other strokes there are.
 Layer fit_layer(const LayerPlan& plan);
+std::uint32_t fitted_places(const LayerPlan& plan);
 
 }  // namespace wheatstone

@@ -32,7 +32,7 @@ struct CellOutcome {
 struct PaintedStroke {
   FittedStroke stroke;       ///< in pixels of its block's tile
   std::uint64_t random = 0;  ///< of its cell
-  std::uint32_t number = 0;  ///< Stroke::number in a still
+  std::uint32_t number = 0;  ///< of its cell, from 1 to fitted_places
 };
 
 /// How a block was planned: the outcome of each cell of each pass, row by row, and the strokes in the order in which

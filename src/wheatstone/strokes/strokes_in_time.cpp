@@ -17,6 +17,7 @@
 #include "wheatstone/strokes/bare_pixels_internal.h"
 #include "wheatstone/strokes/carried_points_internal.h"
 #include "wheatstone/strokes/carry_strokes_internal.h"
+#include "wheatstone/strokes/fit_stroke_internal.h"
 #include "wheatstone/strokes/handed_back_internal.h"
 #include "wheatstone/strokes/layer_order.h"
 #include "wheatstone/strokes/misplaced_strokes_internal.h"
@@ -31,29 +32,34 @@ namespace wheatstone {
 namespace {
 
 /// New numbers for the strokes of one of a scene's views; those of the other views lie between them, so that all views
-/// are planned at once.
+/// are planned at once. Fitted strokes that begin a scene are numbered by place: however a still is planned again, a
+/// stroke that does not change keeps its bristles. Later frames would use up the numbers.
 class StrokeNumbers {
  public:
-  StrokeNumbers(std::uint32_t last, std::size_t view, std::size_t views)
-      : next_(last + 1 + static_cast<std::uint32_t>(view)), step_(static_cast<std::uint32_t>(views)) {}
+  StrokeNumbers(std::uint32_t last, std::size_t view, std::size_t views, bool by_place)
+      : by_place_(by_place),
+        next_(last + 1 + static_cast<std::uint32_t>(view)),
+        step_(static_cast<std::uint32_t>(by_place ? std::max(views, views_of_still) : views)) {}
 
-  void give(Layer& layer) {
-    for (Stroke& stroke : layer.strokes) {
-      stroke.number = next_;
-      next_ += step_;
-    }
+  /// The strokes' numbers are those of their places, from 1 to `places`.
+  void give(std::uint32_t places, Layer& layer) {
+    for (std::uint32_t i = 0; Stroke & stroke : layer.strokes)
+      stroke.number = next_ + step_ * (by_place_ ? stroke.number - 1 : i++);
+    next_ += step_ * (by_place_ ? places : static_cast<std::uint32_t>(layer.strokes.size()));
   }
 
  private:
+  static constexpr std::size_t views_of_still = 8;  ///< at least as many as a scene of two photographs has
+
+  bool by_place_;
   std::uint32_t next_, step_;
 };
 
-/// Numbers dots over fitted strokes so that those beside a dot do not change its number.
+/// Gives dots the number of the pixel that they cover.
 void number_by_pixel(int width, Layer& dots) {
-  constexpr std::uint32_t after_strokes = std::uint32_t{1} << 31;
   for (Stroke& dot : dots.strokes) {
     const ControlPoint& at = dots.points[dot.first_point];
-    dot.number = after_strokes + static_cast<std::uint32_t>(static_cast<int>(at.y) * width + static_cast<int>(at.x));
+    dot.number = 1 + static_cast<std::uint32_t>(static_cast<int>(at.y) * width + static_cast<int>(at.x));
   }
 }
 
@@ -99,7 +105,7 @@ class ViewPainter {
       plan.seeds = seeds;
     }
     Layer begun = plan_layer(plan);
-    if (options.goes_on || style_.marks != Marks::fitted_strokes) numbers_.give(begun);
+    numbers_.give(fitted_places(plan), begun);
     put_in_order(begun, style_);
     add(begun, plan, before, options, tracked);
     if (below && !begun.strokes.empty()) {
@@ -159,10 +165,8 @@ class ViewPainter {
                          .mixed_colours = plan.mixed_colours},
                         style_);
     if (!is_whole()) append_strokes(new_dots_left_out({tracked, carried}), dots);
-    if (options.goes_on || style_.marks != Marks::fitted_strokes)
-      numbers_.give(dots);
-    else
-      number_by_pixel(view.colour.width(), dots);
+    number_by_pixel(view.colour.width(), dots);
+    numbers_.give(static_cast<std::uint32_t>(view.colour.width() * view.colour.height()), dots);
     add(std::move(dots), plan, before, options, tracked);
   }
 
@@ -514,6 +518,7 @@ CarriedPainting plan_strokes(const FilmFrame& frame, const Style& style, const C
   CarriedPainting result;
   if (scene_begins) {
     memory.views.assign(frame.views.size(), std::vector<TrackedLayer>(layers));
+    memory.last_number = 0;
   } else {
     result.counts.before = living_strokes(memory);
     carry(frame, style, options, memory);
@@ -532,7 +537,8 @@ CarriedPainting plan_strokes(const FilmFrame& frame, const Style& style, const C
     if (fit != nullptr && fit->holds(own, style, beside, reference_width)) {
       memory.views[view] = fit->planned;
     } else {
-      StrokeNumbers numbers(memory.last_number, view, frame.views.size());
+      const bool by_place = scene_begins && style.marks == Marks::fitted_strokes;
+      StrokeNumbers numbers(memory.last_number, view, frame.views.size(), by_place);
       ViewPainter painter(own, frame.views.front(), style, scene_begins ? nullptr : &frame.flow->backward, beside,
                           numbers);
       // Little is fitted in views that no photograph shows, and much would be kept.

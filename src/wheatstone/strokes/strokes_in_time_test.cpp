@@ -155,13 +155,12 @@ TEST(StrokesInTime, FuseAsWellAsThoseOfAFrameAlone) {
   EXPECT_LT(bad_2(eyes_of(carried().back())), bad_2(film().frames.back().pictures) + 0.03);
 }
 
-TEST(StrokesInTime, ASceneBegunAfreshRemembersNothingButTheLastNumber) {
+TEST(StrokesInTime, ASceneBegunAfreshRemembersNothing) {
   StrokeMemory used;
   const std::vector<View> first = film().scene(0), second = film().scene(1);
   plan_strokes({first, nullptr}, {}, {}, used);
   plan_strokes({second, film().flow_to(1)}, {}, {}, used);
   StrokeMemory fresh;
-  fresh.last_number = used.last_number;
   const CarriedPainting expected = plan_strokes({first, nullptr}, {}, {}, fresh);
   const CarriedPainting begun = plan_strokes({first, nullptr}, {}, {}, used);
   EXPECT_EQ(begun.painting, expected.painting);
