@@ -8,6 +8,8 @@
 #     TESTS_USE synthetic ...        further rooms that only the tests use: scenes with exact truth, measures
 #     TEST_LIBRARIES ...)            bought libraries that only the tests use
 add_library(wheatstone_warnings INTERFACE)
+# Nothing reads errno or the exceptions of floating point; without them, loops with roots and choices become vectors.
+target_compile_options(wheatstone_warnings INTERFACE -fno-math-errno -fno-trapping-math)
 target_compile_options(wheatstone_warnings INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor -Woverloaded-virtual -Werror
   # Options are structs with defaults: naming only those that differ is how they are meant to be filled.

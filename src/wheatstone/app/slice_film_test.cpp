@@ -77,6 +77,17 @@ void mark_place(const Layer& layer, const Stroke& stroke, ViewPosition view, Ima
   }
 }
 
+/// Marks whole runs of one colour in a row where a stroke touches them: a gap takes the colour beside it.
+void mark_gaps(const Image<Rgb8>& picture, Image<std::uint8_t>& touched) {
+  const auto pass_on = [&](int to, int from, int y) {
+    if (touched(from, y) != 0 && picture(to, y) == picture(from, y)) touched(to, y) = 1;
+  };
+  for (int y = 0; y < picture.height(); ++y) {
+    for (int x = 1; x < picture.width(); ++x) pass_on(x, x - 1, y);
+    for (int x = picture.width() - 1; x > 0; --x) pass_on(x - 1, x, y);
+  }
+}
+
 struct Changes {
   int changed = 0;       ///< pixels that differ between two frames
   int elsewhere = 0;     ///< of these, where no stroke lies that only one of the frames shows
@@ -89,6 +100,7 @@ Changes compare(const Image<Rgb8>& before, const Image<Rgb8>& after, const Paint
   Image<std::uint8_t> touched(before.width(), before.height(), 0);
   const Layer& layer = layers_of(whole).back();
   for (const std::size_t i : gone) mark_place(layer, layer.strokes[i], strokes_of, touched);
+  mark_gaps(before, touched);
   Changes changes;
   int untouched = 0;
   for (std::size_t i = 0; i < before.pixels().size(); ++i) {

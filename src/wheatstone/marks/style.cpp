@@ -68,12 +68,16 @@ Style style_by_name(std::string_view name) {
     style.radii_px = {20, 1.3f};
     style.blur = 0.25f;
     style.reference_filter = ReferenceFilter::gaussian;
-    style.fineness = 0.4f;
+    style.fineness = 0.42f;
     style.brush = {.bristle_px = 1, .streaks = 12, .ridge = 8, .dry = 0.35f};
     return style;
   }
-  style.dual = name == "dual";
-  if (name == "impressionist" || style.dual) return style;
+  if (name == "impressionist") return style;
+  if (name == "dual") {
+    style.dual = true;
+    style.brush = {.bristle_px = 1, .streaks = 14, .ridge = 14, .dry = 0.3f};
+    return style;
+  }
   if (name == "expressionist") {
     style.threshold = 50;
     style.curvature = 0.25f;
@@ -162,8 +166,9 @@ float style_scale(const Style& style, int width) {
 }
 
 Brush brush_for(const Style& style, int width) {
-  if (style.marks != Marks::fitted_strokes) return {};
   Brush brush = style.brush;
+  const bool is_even = brush.streaks == 0 && brush.ridge == 0 && brush.dry == 0 && brush.picture.empty();
+  if (!is_of_strokes(style) || is_even) return {};
   if (brush.bristle_px > 0) brush.bristle_px = std::max(brush.bristle_px * style_scale(style, width), 1.f);
   return brush;
 }

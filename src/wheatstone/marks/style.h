@@ -60,11 +60,11 @@ struct Style {
   int min_length = 4;                    ///< control points before a stroke may end by the colour criterion
   int max_length = 16;                   ///< control points at most; 0 paints dots
   ColourJitter jitter;
-  bool texture = false;   ///< the finished strokes' paint stands up from the canvas, lit from one side
-  bool dual = false;      ///< strokes of two colours, side by side
-  float fineness = 0.5f;  ///< of fitted strokes, 0..1: how small a difference is worth a stroke
-  int strokes = 0;        ///< at most so many fitted strokes, spent where they gain most; 0: as fineness says
-  Brush brush;            ///< bristle_px is that of a picture 640 pixels wide, at least a pixel
+  bool texture = false;          ///< the finished strokes' paint stands up from the canvas, lit from one side
+  bool dual = false;             ///< strokes of two colours, side by side
+  float fineness = 0.5f;         ///< of fitted strokes, 0..1: how small a difference is worth a stroke
+  int strokes = 0;               ///< at most so many fitted strokes, spent where they gain most; 0: as fineness says
+  Brush brush{.bristle_px = 1};  ///< in a picture 640 pixels wide; at least a pixel in narrower ones
 
   Marks marks = Marks::strokes;
   int colours = 18;    ///< k: of a posterised picture
@@ -96,7 +96,7 @@ void check_style(const Style& style);
 /// Pixels of a picture `width` wide for one pixel of a 640-pixel-wide one; 1 with absolute radii.
 float style_scale(const Style& style, int width);
 
-/// The brush for a picture `width` pixels wide; without bristles for other marks than fitted strokes.
+/// The brush for a picture `width` pixels wide; without bristles for marks that are not strokes, and for even paint.
 Brush brush_for(const Style& style, int width);
 
 /// Whether the style paints with strokes, however they are planned.

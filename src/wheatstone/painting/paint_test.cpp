@@ -3,8 +3,11 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
+#include <vector>
 
 #include "scenes/painted_frame.h"
 #include "scenes/two_surfaces.h"
@@ -101,6 +104,37 @@ struct Lent {
     return {memory.pixels().data(), memory.width() - gap, memory.height(), memory.width()};
   }
 };
+
+/// CIE lightness of a level of grey.
+double lightness(std::uint8_t level) {
+  const double encoded = level / 255.0;
+  const double linear = encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
+  return linear <= 0.008856 ? 903.3 * linear : 116 * std::cbrt(linear) - 16;
+}
+
+TEST(PaintLong, OilShowsNoEdgesInASoftSky) {
+  constexpr int width = 4000, height = 3000, apart_px = 6;
+  Image<Rgb8> sky(width, height);
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const auto level = static_cast<std::uint8_t>(90 + 130 * (0.9 * y / height + 0.1 * x / width) + 0.5);
+      sky(x, y) = {level, level, level};
+    }
+  }
+  Style style = style_by_name("oil");
+  style.brush.streaks = style.brush.ridge = style.brush.dry = 0;
+  const Image<float> flat(width, height);
+  const PaintedPair painted = paint({sky, {}}, {.left_disparity = flat}, style);
+  const auto at = [&](int x, int y) { return lightness(painted.pictures.left(x, y).r); };
+  std::vector<double> steps;
+  for (int y = 0; y + apart_px < height; y += 2)
+    for (int x = 0; x + apart_px < width; x += 2)
+      steps.push_back(std::max(std::abs(at(x, y) - at(x + apart_px, y)), std::abs(at(x, y) - at(x, y + apart_px))));
+  const auto last = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() * 999 / 1000);
+  std::ranges::nth_element(steps, last);
+  RecordProperty("step", std::to_string(*last));
+  EXPECT_LE(*last, 2);
+}
 
 TEST(Paint, OfLentMemoryIsThatOfPairs) {
   const StereoPair pair = test_scene::photographs();

@@ -106,7 +106,7 @@ StyleParameter jitter(const Named& named, std::string_view help, float ColourJit
 
 StyleParameter brush(const Named& named, std::string_view help, float Brush::*member) {
   return number_at(
-      named, help, [=](auto& style) -> auto& { return style.brush.*member; }, fitted_only);
+      named, help, [=](auto& style) -> auto& { return style.brush.*member; }, strokes_only);
 }
 
 StyleParameter toggle(const Named& named, std::string_view help, bool Style::*member,
@@ -190,7 +190,7 @@ std::vector<StyleParameter> make_parameters() {
       {"brush", "Brush", strokes,
        "Brush: none, round, flat, filbert, fan, knife, charcoal, or a picture whose white covers", false,
        [](const Style& style) { return toml_text(style.brush.picture.empty() ? "none" : style.brush.picture.name); },
-       [](Style& style, std::string_view text) { style.brush.picture = read_brush(std::string(text)); }, fitted_only},
+       [](Style& style, std::string_view text) { style.brush.picture = read_brush(std::string(text)); }, strokes_only},
       toggle({"dual", "Strokes of two colours", colour}, "Strokes of two colours, side by side", &Style::dual,
              traced_only),
       toggle({"texture", "Relief of the paint", strokes}, "Relief of the paint, lit from one side", &Style::texture),

@@ -61,6 +61,8 @@ TEST_P(StyleReads, ExactlyTheParametersThatItsTableNames) {
   Style base = style_by_name(GetParam());
   // The canvas shows, so that its colour counts.
   if (is_of_strokes(base)) base.background = Background::colour;
+  // Paint is uneven, so that the width of bristles counts.
+  if (is_of_strokes(base)) base.brush = style_by_name("oil").brush;
   const StereoPair as_it_is = paint(still.pictures, still.geometry, base).pictures;
   for (const StyleParameter& parameter : style_parameters()) {
     if (parameter.name == "marks") continue;

@@ -45,29 +45,34 @@ int in_window(int i, int count) {
   return std::min(i + window_reach_px, count - 1) - std::max(i - window_reach_px, 0) + 1;
 }
 
-float weight_of(float mean, float variance) {
-  constexpr float least_weight = 0.25f;
-  const float contrast = std::sqrt(std::max(variance, 0.f)) / (2.5f + 0.04f * mean);
-  return least_weight + (1 - least_weight) * std::min(contrast, 1.f);
-}
-
-void weigh_row(const ColumnSums& sums, int rows_in_window, std::span<float> weights) {
-  constexpr float of_step = FitColour::luminance_step / steps_of_level;
+void weigh_row(const ColumnSums& sums, std::span<const float> columns_in_window, int rows_in_window,
+               std::span<float> weights) {
   constexpr int last = 2 * window_reach_px;  // column of a window
-  const int width = static_cast<int>(weights.size());
+  thread_local std::vector<std::int32_t> values, squares;
+  values.resize(weights.size());
+  squares.resize(weights.size());
   std::int32_t value = 0, square = 0;
   for (int i = 0; i < last; ++i) {
     value += sums.values[i];
     square += sums.squares[i];
   }
-  for (int x = 0; x < width; ++x) {
+  for (std::size_t x = 0; x < weights.size(); ++x) {
     value += sums.values[x + last];
     square += sums.squares[x + last];
-    const float share = 1 / static_cast<float>(in_window(x, width) * rows_in_window);
-    const float mean = of_step * share * static_cast<float>(value);
-    weights[x] = weight_of(mean, of_step * of_step * share * static_cast<float>(square) - mean * mean);
+    values[x] = value;
+    squares[x] = square;
     value -= sums.values[x];
     square -= sums.squares[x];
+  }
+  // A loop that compilers turn into vectors.
+  constexpr float of_step = FitColour::luminance_step / steps_of_level, least_weight = 0.25f;
+  const auto rows = static_cast<float>(rows_in_window);
+  for (std::size_t x = 0; x < weights.size(); ++x) {
+    const float share = 1 / (columns_in_window[x] * rows);
+    const float mean = of_step * share * static_cast<float>(values[x]);
+    const float variance = of_step * of_step * share * static_cast<float>(squares[x]) - mean * mean;
+    const float contrast = std::sqrt(variance > 0 ? variance : 0) / (2.5f + 0.04f * mean);
+    weights[x] = least_weight + (1 - least_weight) * (contrast < 1 ? contrast : 1);
   }
 }
 
@@ -97,6 +102,8 @@ Image<float> difference_weights(const LayerPlan& plan) {
   std::array<float, 256> of_outline{1};
   std::fill(of_outline.begin() + 1, of_outline.end(), factor_of_outline);
   const int width = plan.reference.red.width(), height = plan.reference.red.height();
+  std::vector<float> columns_in_window(static_cast<std::size_t>(width));
+  for (int x = 0; x < width; ++x) columns_in_window[x] = static_cast<float>(in_window(x, width));
   Image<float> weights(width, height);
   constexpr int least_rows = 64;  // a part's first window is summed anew
   tbb::parallel_for(tbb::blocked_range<int>(0, height, least_rows), [&](const tbb::blocked_range<int>& rows) {
@@ -105,7 +112,7 @@ Image<float> difference_weights(const LayerPlan& plan) {
       sums.change(plan.reference, y, 1);
     for (int y = rows.begin(); y < rows.end(); ++y) {
       sums.change(plan.reference, y + window_reach_px, 1);
-      weigh_row(sums, in_window(y, height), weights.row(y));
+      weigh_row(sums, columns_in_window, in_window(y, height), weights.row(y));
       sums.change(plan.reference, y - window_reach_px, -1);
       if (!detail.empty()) multiply(weights.row(y), detail.row(y), of_detail);
       if (weighs_outlines) multiply(weights.row(y), plan.depth_edges.row(y), of_outline);

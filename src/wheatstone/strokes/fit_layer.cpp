@@ -1,6 +1,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <optional>
 #include <span>
@@ -27,10 +28,13 @@ int block_px(const LayerPlan& plan) {
 /// A cell of a tile, [left, right) × [top, bottom).
 struct Cell {
   int left, top, right, bottom;
-  std::uint64_t random;
-  std::size_t index;        ///< in its block and pass
-  std::uint32_t place = 0;  ///< in the order in which the layer's cells are planned, with gaps
+  std::size_t index;    ///< in its block and pass
+  std::uint32_t place;  ///< in the order in which the layer's cells are planned, with gaps
 };
+
+std::uint64_t random_of(const LayerPlan& plan, const Cell& cell) {
+  return hash_keys({plan.style.seed, static_cast<std::uint64_t>(plan.layer), cell.place});
+}
 
 /// Where a stroke is begun: the worst pixel of a cell. Bare pixels are equally bad: chance chooses among them.
 struct Anchor {
@@ -44,10 +48,9 @@ Anchor find_anchor(const LayerPlan& plan, const FitTile& tile, const Cell& cell)
   for (int y = cell.top; y < cell.bottom; ++y) {
     for (int x = cell.left; x < cell.right; ++x) {
       if (!plan.seeds.empty() && plan.seeds(tile.left + x, tile.top + y) == 0) continue;
-      const std::size_t pixel = tile.at(x, y);
-      const float error = tile.error[pixel];
+      const float error = tile.error(x, y);
       anchor.sum += error;
-      const float chance = tile.is_bare(pixel) ? unit_float(hash_keys({cell.random, pixel})) : 0;
+      const float chance = tile.is_bare(x, y) ? unit_float(hash_keys({plan.style.seed, cell.place, tile.at(x, y)})) : 0;
       if (error + chance <= most) continue;
       most = error + chance;
       anchor.x = x;
@@ -77,9 +80,8 @@ void errors_of_row(const LayerPlan& plan, int left, int y, std::span<float> erro
   const auto covered = row(canvas.coverage), weights = row(plan.weights);
   for (std::size_t i = 0; i < errors.size(); ++i) {
     // The planes are linear in sRGB.
-    const float difference =
-        squared(FitColour::of(red[i] - painted_red[i], green[i] - painted_green[i], blue[i] - painted_blue[i]));
-    errors[i] = covered[i] < 0.5f ? squared_error_of_bare : weights[i] * difference;
+    errors[i] = error_of(FitColour::of(red[i] - painted_red[i], green[i] - painted_green[i], blue[i] - painted_blue[i]),
+                         covered[i] < 0.5f, weights[i]);
   }
 }
 
@@ -111,23 +113,87 @@ bool may_gain_in_block(const LayerPlan& plan, int left, int top, int size) {
   return false;
 }
 
-/// All cells of one pass that begin in a block, row by row.
-std::vector<Cell> cells_of_block(const LayerPlan& plan, const FitTile& tile, int left, int top, int size, int pass) {
+/// A block of cells, and the part of the picture that its strokes may touch.
+struct Block {
+  int left, top, size, wave;
+  PixelArea area;
+  std::size_t index;  ///< in the order in which blocks are planned
+};
+
+/// The number of bits of a cell's place among those of a pass over a block.
+int bits_of_place(const LayerPlan& plan) {
+  const auto side = static_cast<unsigned>(static_cast<float>(block_px(plan)) / cell_px(plan)) + 2;
+  return std::bit_width(side * side - 1);
+}
+
+/// Another number of so many bits for each number of so many bits, as if by chance.
+std::uint32_t shuffled(std::uint32_t number, int bits, std::uint64_t key) {
+  const std::uint32_t mask = (std::uint32_t{1} << bits) - 1;
+  std::uint32_t mixed = (number + static_cast<std::uint32_t>(key)) & mask;
+  for (int i = 0; i < 3; ++i) {
+    mixed = mixed * 0x9E3779B1u & mask;  // each step can be undone, so that no number comes twice
+    mixed ^= mixed >> ((bits + 1) / 2);
+  }
+  return mixed;
+}
+
+/// The pixels of a tile at which the columns or rows of cells begin that begin in a block, and where the last one ends.
+std::vector<int> begins_of_cells(const LayerPlan& plan, int begin, int size, int pass, int tile_begin, int tile_size) {
   const float cell = cell_px(plan), shift = static_cast<float>(pass) * cell / 2;
   const auto first = [&](int place) { return static_cast<int>(std::ceil((static_cast<float>(place) + shift) / cell)); };
-  const auto place = [&](int number) { return place_of_half(plan, 2 * number - pass); };
-  std::vector<Cell> cells;
-  const auto number_from = [&](int begin) { return begin == 0 ? 0 : first(begin); };
-  for (int row = number_from(top); row < first(top + size); ++row)
-    for (int column = number_from(left); column < first(left + size); ++column)
-      cells.push_back(
-          {std::max(place(column) - tile.left, 0), std::max(place(row) - tile.top, 0),
-           std::min(place(column + 1) - tile.left, tile.width), std::min(place(row + 1) - tile.top, tile.height),
-           hash_keys({plan.style.seed, static_cast<std::uint64_t>(plan.layer), static_cast<std::uint64_t>(pass),
-                      static_cast<std::uint64_t>(column), static_cast<std::uint64_t>(row)}),
-           cells.size()});
-  return cells;
+  std::vector<int> begins;
+  for (int number = begin == 0 ? 0 : first(begin); number <= first(begin + size); ++number)
+    begins.push_back(std::clamp(place_of_half(plan, 2 * number - pass) - tile_begin, 0, tile_size));
+  return begins;
 }
+
+/// The cells of one pass that begin in a block, counted row by row.
+class CellsOfBlock {
+ public:
+  CellsOfBlock(const LayerPlan& plan, const FitTile& tile, const Block& block, int pass)
+      : columns_(begins_of_cells(plan, block.left, block.size, pass, tile.left, tile.width)),
+        rows_(begins_of_cells(plan, block.top, block.size, pass, tile.top, tile.height)),
+        pass_of_block_(static_cast<std::uint32_t>(fit_passes * block.index + static_cast<std::size_t>(pass))) {}
+
+  std::size_t count() const { return (columns_.size() - 1) * (rows_.size() - 1); }
+
+  /// The cells in which a stroke may gain, in random order, so that no rows of strokes show.
+  std::vector<Cell> promising(const LayerPlan& plan, const FitTile& tile) const {
+    const int bits = bits_of_place(plan);
+    const std::uint64_t key = hash_keys({plan.style.seed, static_cast<std::uint64_t>(plan.layer), pass_of_block_});
+    const std::size_t columns = columns_.size() - 1;
+    std::vector<std::optional<std::uint16_t>> at_place(std::size_t{1} << bits);
+    std::vector<float> sums(columns);
+    for (std::size_t row = 0; row + 1 < rows_.size(); ++row) {
+      sum_errors(tile, row, sums);
+      for (std::size_t column = 0; column < columns; ++column) {
+        const std::size_t index = row * columns + column;
+        if (may_gain(plan, sums[column]))
+          at_place[shuffled(static_cast<std::uint32_t>(index), bits, key)] = static_cast<std::uint16_t>(index);
+      }
+    }
+    std::vector<Cell> cells;
+    for (std::uint32_t place = 0; place < at_place.size(); ++place) {
+      if (!at_place[place]) continue;
+      const std::size_t row = *at_place[place] / columns, column = *at_place[place] % columns;
+      cells.push_back({columns_[column], rows_[row], columns_[column + 1], rows_[row + 1], *at_place[place],
+                       (pass_of_block_ << bits) + place});
+    }
+    return cells;
+  }
+
+ private:
+  /// The sums of the errors in a row of cells, also where no stroke may begin.
+  void sum_errors(const FitTile& tile, std::size_t row, std::span<float> sums) const {
+    std::ranges::fill(sums, 0.f);
+    for (int y = rows_[row]; y < rows_[row + 1]; ++y)
+      for (std::size_t column = 0; column < sums.size(); ++column)
+        for (int x = columns_[column]; x < columns_[column + 1]; ++x) sums[column] += tile.error(x, y);
+  }
+
+  std::vector<int> columns_, rows_;
+  std::uint32_t pass_of_block_;
+};
 
 std::uint8_t level_of(float value) { return static_cast<std::uint8_t>(std::clamp(value, 0.f, 255.f) + 0.5f); }
 
@@ -179,19 +245,6 @@ bool has_seeds(const LayerPlan& plan, int left, int top, int size) {
   return false;
 }
 
-/// A block of cells, and the part of the picture that its strokes may touch.
-struct Block {
-  int left, top, size, wave;
-  PixelArea area;
-  std::size_t index;  ///< in the order in which blocks are planned
-};
-
-/// At least as many as a pass over a block has cells.
-std::uint32_t places_a_pass(const LayerPlan& plan) {
-  const auto side = static_cast<std::uint32_t>(static_cast<float>(block_px(plan)) / cell_px(plan)) + 2;
-  return side * side;
-}
-
 /// Plans the strokes of one block, or takes over those of the last time where nothing about a cell differs.
 class BlockPlan {
  public:
@@ -209,7 +262,7 @@ class BlockPlan {
     }
     if (refit_ != nullptr) refit_->restore(block_.wave, block_.area, canvas_);
     FitTile tile(plan_, canvas_, block_.area.left, block_.area.top, block_.area.right, block_.area.bottom);
-    tried_in_vain_.resize(tile.wanted.size());
+    tried_in_vain_.resize(tile.at(0, tile.height));
     for (int pass = 0; pass < fit_passes; ++pass) run_pass(pass, tile);
     return end();
   }
@@ -223,24 +276,16 @@ class BlockPlan {
 
  private:
   void run_pass(int pass, FitTile& tile) {
-    // In random order, so that no rows of strokes show.
-    std::vector<Cell> all = cells_of_block(plan_, tile, block_.left, block_.top, block_.size, pass);
-    std::ranges::sort(all, {}, &Cell::random);
-    const std::uint32_t first = places_a_pass(plan_) * static_cast<std::uint32_t>(fit_passes * block_.index + pass);
-    for (std::size_t i = 0; i < all.size(); ++i) all[i].place = first + static_cast<std::uint32_t>(i);
+    const CellsOfBlock cells(plan_, tile, block_, pass);
+    const std::vector<Cell> promising = cells.promising(plan_, tile);
     std::vector<CellOutcome>& outcomes = now_.cells[static_cast<std::size_t>(pass)];
-    outcomes.resize(all.size());
+    outcomes.resize(cells.count());
     const std::vector<CellOutcome>& known = before_.cells[static_cast<std::size_t>(pass)];
-    const auto outcome_before = [&](const Cell& cell) { return known.empty() ? CellOutcome() : known[cell.index]; };
-    std::vector<Cell> cells;
-    for (const Cell& cell : all) {
-      if (may_gain(plan_, find_anchor(plan_, tile, cell).sum))
-        cells.push_back(cell);
-      else
-        replace(outcome_before(cell), nullptr);
-    }
-    for (const Cell& cell : cells) {
-      const CellOutcome before = outcome_before(cell);
+    for (const Cell& cell : promising) outcomes[cell.index].kind = CellOutcome::Kind::left_out;
+    for (std::size_t i = 0; i < known.size(); ++i)
+      if (outcomes[i].kind == CellOutcome::Kind::no_gain) replace(known[i], nullptr);
+    for (const Cell& cell : promising) {
+      const CellOutcome before = known.empty() ? CellOutcome() : known[cell.index];
       outcomes[cell.index] =
           known.empty() || differs_about(cell) ? plan_cell(cell, before, tile) : take_over(before, tile);
     }
@@ -248,19 +293,20 @@ class BlockPlan {
 
   CellOutcome plan_cell(const Cell& cell, const CellOutcome& before, FitTile& tile) {
     const Anchor anchor = find_anchor(plan_, tile, cell);
+    const std::uint64_t random = random_of(plan_, cell);
     std::optional<FittedStroke> fitted;
     CellOutcome outcome{CellOutcome::Kind::left_out};
     if (anchor.x >= 0 && may_gain(plan_, anchor.sum)) {
       const std::size_t pixel = tile.at(anchor.x, anchor.y);
       if (tried_in_vain_[pixel] == 0) {
-        fitted = fit_stroke(tile, plan_, anchor.x, anchor.y, cell.random);
+        fitted = fit_stroke(tile, plan_, anchor.x, anchor.y, random);
         tried_in_vain_[pixel] = !fitted;
         outcome = {CellOutcome::Kind::in_vain, static_cast<std::uint32_t>(pixel)};
       }
     }
     replace(before, fitted ? &*fitted : nullptr);
     if (!fitted) return outcome;
-    return paint({std::move(*fitted), cell.random, 1 + cell.place}, tile);
+    return paint({std::move(*fitted), random, 1 + cell.place}, tile);
   }
 
   CellOutcome take_over(const CellOutcome& before, FitTile& tile) {
@@ -270,7 +316,7 @@ class BlockPlan {
   }
 
   CellOutcome paint(PaintedStroke painted, FitTile& tile) {
-    paint_stroke(painted.stroke, plan_, tile, canvas_);
+    paint_stroke(painted.stroke, plan_, tile);
     now_.strokes.push_back(std::move(painted));
     return {CellOutcome::Kind::painted, static_cast<std::uint32_t>(now_.strokes.size() - 1)};
   }
@@ -343,7 +389,7 @@ std::vector<Block> blocks_of(const LayerPlan& plan) {
 }  // namespace
 
 std::uint32_t fitted_places(const LayerPlan& plan) {
-  return places_a_pass(plan) * static_cast<std::uint32_t>(fit_passes * blocks_of(plan).size());
+  return static_cast<std::uint32_t>(fit_passes * blocks_of(plan).size()) << bits_of_place(plan);
 }
 
 Layer fit_layer(const LayerPlan& plan) {

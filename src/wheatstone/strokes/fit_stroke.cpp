@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "wheatstone/random.h"
+#include "wheatstone/strokes/footprint_internal.h"
 
 namespace wheatstone {
 namespace {
@@ -30,19 +31,21 @@ void follow(const FitTile& tile, const LayerPlan& plan, PlanePoint from, Directi
             std::vector<PlanePoint>& points) {
   const float step = step_px(plan.radius_px);
   const float tolerance = 5 + 0.15f * plan.radius_px;
-  const std::size_t begun = tile.at(static_cast<int>(from.x), static_cast<int>(from.y));
-  const FitColour colour = tile.wanted[begun];
-  float last_disparity = tile.disparity[begun];
+  const int begun_x = static_cast<int>(from.x), begun_y = static_cast<int>(from.y);
+  const FitColour colour = tile.wanted(begun_x, begun_y);
+  float last_disparity = tile.disparity(begun_x, begun_y);
   for (float length = step; length <= longest_px(plan.radius_px) / 2; length += step) {
     const PlanePoint next{from.x + step * direction.x, from.y + step * direction.y};
     if (!tile.contains(next.x, next.y)) return;
-    const std::size_t pixel = tile.at(static_cast<int>(next.x), static_cast<int>(next.y));
-    if (std::abs(tile.disparity[pixel] - last_disparity) > plan.depth_threshold_px) return;
-    last_disparity = tile.disparity[pixel];
-    const float unlike = squared(tile.wanted[pixel] - colour);
+    const int x = static_cast<int>(next.x), y = static_cast<int>(next.y);
+    const float disparity = tile.disparity(x, y);
+    if (std::abs(disparity - last_disparity) > plan.depth_threshold_px) return;
+    last_disparity = disparity;
+    const FitColour wanted = tile.wanted(x, y);
+    const float unlike = squared(wanted - colour);
     if (unlike > tolerance * tolerance) return;
     // Hertzmann 1998, sec. 2.2: the canvas is already nearer to the picture than the stroke's colour would be.
-    if (!tile.is_bare(pixel) && squared(tile.wanted[pixel] - tile.painted[pixel]) < 0.6f * unlike) return;
+    if (!tile.is_bare(x, y) && squared(wanted - tile.painted(x, y)) < 0.6f * unlike) return;
     points.push_back(next);
     from = next;
     Direction turned = plan.reference.orientation.along(static_cast<float>(tile.left) + next.x,
@@ -61,9 +64,7 @@ void follow(const FitTile& tile, const LayerPlan& plan, PlanePoint from, Directi
 /// Strokes of a point or two would be discs: they go on a little on their surface, whatever colour is there.
 void lengthen(const FitTile& tile, const LayerPlan& plan, Direction direction, Path& path) {
   const PlanePoint middle = path.points[path.begun];
-  const auto disparity_at = [&](PlanePoint p) {
-    return tile.disparity[tile.at(static_cast<int>(p.x), static_cast<int>(p.y))];
-  };
+  const auto disparity_at = [&](PlanePoint p) { return tile.disparity(static_cast<int>(p.x), static_cast<int>(p.y)); };
   const float half_length = std::max(1.4f * plan.radius_px, 2.f);
   path.points = {middle};
   for (const float way : {-half_length, half_length}) {
@@ -97,109 +98,6 @@ std::vector<PlanePoint> control_points(std::span<const PlanePoint> path) {
   for (std::size_t i = 0; i < most; ++i) points.push_back(path[(i * (path.size() - 1) + (most - 1) / 2) / (most - 1)]);
   return points;
 }
-
-/// The pixels of a stroke: the distance from its curve, and the share of its length, 0..1.
-class Footprint {
- public:
-  /// Calls `visit(pixel, distance, share)` for pixels nearer than `reach_px` to the spline of these control points, in
-  /// every `row_step`th row.
-  template <class Visit>
-  void visit(const FitTile& tile, std::span<const PlanePoint> controls, float reach_px, int row_step, Visit visit) {
-    flatten(controls);
-    const auto [left, right] = std::ranges::minmax(chain_, {}, &Vertex::x);
-    const auto [top, bottom] = std::ranges::minmax(chain_, {}, &Vertex::y);
-    const int x0 = std::max(static_cast<int>(left.x - reach_px), 0),
-              y0 = std::max(static_cast<int>(top.y - reach_px), 0);
-    const int x1 = std::min(static_cast<int>(right.x + reach_px) + 1, tile.width);
-    const int y1 = std::min(static_cast<int>(bottom.y + reach_px) + 1, tile.height);
-    const auto columns = static_cast<std::size_t>(std::max(x1 - x0, 0));
-    squared_.resize(columns);
-    along_.resize(columns);
-    const float length = std::max(chain_.back().along, 1e-3f), squared_reach = reach_px * reach_px;
-    for (int y = y0; y < y1; y += row_step) {
-      const float py = static_cast<float>(y) + 0.5f;
-      const auto [begin, end] = reached(py, x0, x1, reach_px);
-      if (begin >= end) continue;
-      std::fill(squared_.begin() + begin, squared_.begin() + end, squared_reach);
-      for (std::size_t s = 0; s + 1 < chain_.size(); ++s) lower_row(s, py, x0, x1, reach_px);
-      for (int i = begin; i < end; ++i)
-        if (squared_[i] < squared_reach) visit(tile.at(x0 + i, y), std::sqrt(squared_[i]), along_[i] / length);
-    }
-  }
-
- private:
-  struct Vertex {
-    float x, y, along;
-  };
-
-  void flatten(std::span<const PlanePoint> controls) {
-    chain_.clear();
-    if (controls.size() < 3) {
-      for (const PlanePoint& point : controls) add(point);
-      if (controls.size() == 1) add(controls.front());
-      return;
-    }
-    points_.clear();
-    for (const PlanePoint& point : controls) points_.push_back({point.x, point.y, 0});
-    const ClampedSpline spline(points_, central_view);
-    add(controls.front());
-    for (int span = 0; span < spline.span_count(); ++span) {
-      const SpatialPoint end = point_on(spline, span, 1);
-      add({end.x, end.y});
-    }
-  }
-
-  void add(PlanePoint point) {
-    const float along =
-        chain_.empty() ? 0 : chain_.back().along + std::hypot(point.x - chain_.back().x, point.y - chain_.back().y);
-    chain_.push_back({point.x, point.y, along});
-  }
-
-  /// Columns of a row, from x0: [begin, end).
-  struct Columns {
-    int begin, end;
-  };
-
-  /// The columns in which a row comes near a segment; end ≤ begin: none.
-  Columns reached(std::size_t segment, float py, int x0, int x1, float reach_px) const {
-    const Vertex &a = chain_[segment], &b = chain_[segment + 1];
-    if (py < std::min(a.y, b.y) - reach_px || py > std::max(a.y, b.y) + reach_px) return {x1 - x0, 0};
-    return {std::max(static_cast<int>(std::min(a.x, b.x) - reach_px), x0) - x0,
-            std::min(static_cast<int>(std::max(a.x, b.x) + reach_px) + 1, x1) - x0};
-  }
-
-  /// The columns in which it comes near any segment.
-  Columns reached(float py, int x0, int x1, float reach_px) const {
-    Columns all{x1 - x0, 0};
-    for (std::size_t s = 0; s + 1 < chain_.size(); ++s) {
-      const auto [begin, end] = reached(s, py, x0, x1, reach_px);
-      all = {std::min(all.begin, begin), std::max(all.end, end)};
-    }
-    return all;
-  }
-
-  /// Lowers a row's squared distances to those of one segment.
-  void lower_row(std::size_t segment, float py, int x0, int x1, float reach_px) {
-    const auto [begin, end] = reached(segment, py, x0, x1, reach_px);
-    const Vertex &a = chain_[segment], &b = chain_[segment + 1];
-    const float dx = b.x - a.x, dy = b.y - a.y, squared_length = dx * dx + dy * dy;
-    const float inverse = squared_length > 0 ? 1 / squared_length : 0, length = b.along - a.along;
-    const float first_x = static_cast<float>(x0) + 0.5f - a.x, y = py - a.y;
-    float* const to = squared_.data();
-    float* const along = along_.data();
-    for (int i = begin; i < end; ++i) {
-      const float x = first_x + static_cast<float>(i);
-      const float t = std::min(std::max((x * dx + y * dy) * inverse, 0.f), 1.f);
-      const float ex = x - t * dx, ey = y - t * dy, distance = ex * ex + ey * ey;
-      along[i] = distance < to[i] ? a.along + t * length : along[i];
-      to[i] = std::min(distance, to[i]);
-    }
-  }
-
-  std::vector<ControlPoint> points_;
-  std::vector<Vertex> chain_;
-  std::vector<float> squared_, along_;
-};
 
 /// Sums over the pixels of a stroke, from which a colour that changes evenly along it is fitted by least squares.
 struct Moments {
@@ -289,32 +187,38 @@ FitColour varied(std::uint64_t random) {
 
 }  // namespace
 
-FitTile::FitTile(const LayerPlan& plan, const PaintedPicture& canvas, int left_, int top_, int right, int bottom)
+FitTile::FitTile(const LayerPlan& plan, PaintedPicture& canvas, int left_, int top_, int right, int bottom)
     : left(std::max(left_, 0)),
       top(std::max(top_, 0)),
       width(std::min(right, canvas.width()) - left),
       height(std::min(bottom, canvas.height()) - top),
-      wanted(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)),
-      painted(wanted.size()),
-      weight(wanted.size()),
-      error(wanted.size()),
-      coverage(wanted.size()),
-      disparity(wanted.size()) {
+      plan_(plan),
+      canvas_(canvas),
+      error_(at(0, height)) {
   for (int y = 0; y < height; ++y) {
-    const auto row = [&](const auto& plane) { return plane.row(top + y).subspan(static_cast<std::size_t>(left)); };
-    const auto red = row(plan.reference.red), green = row(plan.reference.green), blue = row(plan.reference.blue);
-    const auto paint = row(canvas);
-    const auto depth = row(plan.view.disparity), weights = row(plan.weights);
+    const auto row = [&](const auto& plane) { return &plane(left, top + y); };
+    const auto *red = row(plan.reference.red), *green = row(plan.reference.green), *blue = row(plan.reference.blue);
+    const PaintedPixel* const paint = row(std::as_const(canvas));
+    const float* const weights = row(plan.weights);
+    float* const to = error_.data() + at(0, y);
+    // A loop that compilers turn into vectors.
     for (int x = 0; x < width; ++x) {
-      const std::size_t pixel = at(x, y), i = static_cast<std::size_t>(x);
-      wanted.set(pixel, FitColour::of(red[i], green[i], blue[i]));
-      painted.set(pixel, paint[i].colour());
-      coverage[pixel] = paint[i].coverage();
-      weight[pixel] = weights[i];
-      disparity[pixel] = depth[i];
+      const auto left_of = [](int level, std::uint16_t painted) {
+        return static_cast<float>(level) - static_cast<float>(painted) / PaintedPixel::steps;
+      };
+      to[x] = error_of(FitColour::of(left_of(red[x], paint[x].red), left_of(green[x], paint[x].green),
+                                     left_of(blue[x], paint[x].blue)),
+                       paint[x].is_bare(), weights[x]);
     }
   }
-  for (std::size_t pixel = 0; pixel < error.size(); ++pixel) find_error(pixel);
+}
+
+void FitTile::paint(int x, int y, const FitColour& colour, float cover) {
+  PaintedPixel& pixel = canvas_(left + x, top + y);
+  const FitColour before = pixel.colour();
+  pixel = PaintedPixel::of(pixel.is_bare() ? colour : before + cover * (colour - before),
+                           std::max(pixel.coverage(), cover));
+  error_[at(x, y)] = error_of(wanted(x, y) - pixel.colour(), pixel.is_bare(), weight(x, y));
 }
 
 float fitted_reach_px(float radius_px) { return longest_px(radius_px) / 2 + radius_px + 2; }
@@ -341,7 +245,7 @@ PathFit fit_along(const Path& path, const FitTile& tile, const LayerPlan& plan, 
                   int row_step) {
   const float radius = plan.radius_px;
   const PlanePoint& middle = path.points[path.begun];
-  const float of_stroke = tile.disparity[tile.at(static_cast<int>(middle.x), static_cast<int>(middle.y))];
+  const float of_stroke = tile.disparity(static_cast<int>(middle.x), static_cast<int>(middle.y));
 
   // Moments of the pixels by the narrowest stroke and the shortest part of the path that they belong to.
   std::array<std::array<Moments, width_shares.size()>, length_shares.size()> moments{};
@@ -353,8 +257,8 @@ PathFit fit_along(const Path& path, const FitTile& tile, const LayerPlan& plan, 
     within[l] = {share_of_path(path, first) - cap, share_of_path(path, end - 1) + cap};
   }
   thread_local Footprint footprint;
-  const auto add = [&](std::size_t pixel, float distance, float share) {
-    const Side side = side_of(tile.disparity[pixel], of_stroke, plan.depth_threshold_px);
+  const auto add = [&](int x, int y, float distance, float share) {
+    const Side side = side_of(tile.disparity(x, y), of_stroke, plan.depth_threshold_px);
     if (side == Side::nearer) return;
     std::size_t l = 0, w = 0;
     while (l + 1 < length_shares.size() && (share < within[l][0] || share > within[l][1])) ++l;
@@ -362,8 +266,8 @@ PathFit fit_along(const Path& path, const FitTile& tile, const LayerPlan& plan, 
     Moments& bin = moments[l][w];
     constexpr float spill = 60;
     if (side == Side::farther) bin.before -= spill;
-    bin.before += tile.error[pixel];
-    bin.add(tile.weight[pixel], share, tile.wanted[pixel]);
+    bin.before += tile.error(x, y);
+    bin.add(tile.weight(x, y), share, tile.wanted(x, y));
   };
   footprint.visit(tile, control_points(path.points), radius, row_step, add);
   for (std::size_t l = 0; l < length_shares.size(); ++l) {
@@ -411,24 +315,15 @@ std::optional<FittedStroke> fit_stroke(const FitTile& tile, const LayerPlan& pla
   std::vector<PlanePoint> points = control_points(std::span(path.points).subspan(first, end - first));
   const PlanePoint middle = points[points.size() / 2];
   return FittedStroke{std::move(points), best.radius_px, colour_at(first), colour_at(end - 1),
-                      tile.disparity[tile.at(static_cast<int>(middle.x), static_cast<int>(middle.y))]};
+                      tile.disparity(static_cast<int>(middle.x), static_cast<int>(middle.y))};
 }
 
-void paint_stroke(const FittedStroke& stroke, const LayerPlan& plan, FitTile& tile, PaintedPicture& canvas) {
+void paint_stroke(const FittedStroke& stroke, const LayerPlan& plan, FitTile& tile) {
   thread_local Footprint footprint;
   const BrushProfile brush(stroke.radius_px);
-  footprint.visit(tile, stroke.points, brush.reach_px, 1, [&](std::size_t pixel, float distance, float share) {
-    if (side_of(tile.disparity[pixel], stroke.disparity, plan.depth_threshold_px) == Side::nearer) return;
-    const float cover = brush.cover(distance);
-    const FitColour colour = stroke.begin + share * (stroke.end - stroke.begin);
-    const FitColour before = tile.painted[pixel];
-    const FitColour painted = tile.is_bare(pixel) ? colour : before + cover * (colour - before);
-    tile.painted.set(pixel, painted);
-    tile.coverage[pixel] = std::max(tile.coverage[pixel], cover);
-    tile.find_error(pixel);
-    const int x = static_cast<int>(pixel % static_cast<std::size_t>(tile.width));
-    const int y = static_cast<int>(pixel / static_cast<std::size_t>(tile.width));
-    canvas(tile.left + x, tile.top + y) = PaintedPixel::of(painted, tile.coverage[pixel]);
+  footprint.visit(tile, stroke.points, brush.reach_px, 1, [&](int x, int y, float distance, float share) {
+    if (side_of(tile.disparity(x, y), stroke.disparity, plan.depth_threshold_px) == Side::nearer) return;
+    tile.paint(x, y, stroke.begin + share * (stroke.end - stroke.begin), brush.cover(distance));
   });
 }
 

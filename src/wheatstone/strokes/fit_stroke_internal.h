@@ -43,8 +43,12 @@ inline FitColour operator-(const FitColour& a, const FitColour& b) {
 /// picture within 3 pixels.
 Image<float> difference_weights(const LayerPlan& plan);
 
-/// The error of a bare pixel, in squared steps.
-inline constexpr float squared_error_of_bare = 900;
+/// The error of a pixel, in squared steps, from the difference between what is wanted and what is painted.
+inline float error_of(const FitColour& difference, bool is_bare, float weight) {
+  constexpr float of_bare = 900;
+  const float painted = weight * squared(difference);
+  return is_bare ? of_bare : painted;
+}
 
 /// A pixel of a canvas while a layer is fitted: as Canvas, in half the memory.
 struct PaintedPixel {
@@ -64,38 +68,17 @@ struct PaintedPixel {
   }
   FitColour colour() const { return FitColour::of(red / steps, green / steps, blue / steps); }
   float coverage() const { return covered / coverage_steps; }
+  bool is_bare() const { return coverage() < 0.5f; }
 };
 using PaintedPicture = Image<PaintedPixel>;
 
-/// Colours by pixel, a plane for each of their parts.
-class FitColours {
+/// A part of a layer's pictures, around a block of cells whose strokes are planned one after the other. `left` and
+/// `top` are counted from the picture's first pixel, everything else from the tile's. Borrows what it is made from.
+class FitTile {
  public:
-  explicit FitColours(std::size_t count) : luminance_(count), red_(count), blue_(count) {}
-  std::size_t size() const { return luminance_.size(); }
-  FitColour operator[](std::size_t pixel) const { return {luminance_[pixel], red_[pixel], blue_[pixel]}; }
-  void set(std::size_t pixel, const FitColour& colour) {
-    luminance_[pixel] = colour.luminance;
-    red_[pixel] = colour.red;
-    blue_[pixel] = colour.blue;
-  }
+  FitTile(const LayerPlan& plan, PaintedPicture& canvas, int left, int top, int right, int bottom);
 
- private:
-  std::vector<float> luminance_, red_, blue_;
-};
-
-/// A part of a layer's pictures, around a block of cells whose strokes are planned one after the other: `x`, `y` are
-/// counted from the picture's first pixel, everything else from the tile's.
-struct FitTile {
-  FitTile(const LayerPlan& plan, const PaintedPicture& canvas, int left, int top, int right, int bottom);
-
-  int left, top, width, height;
-  /// By pixel: what is wanted, what is painted, and how much a difference counts there.
-  FitColours wanted, painted;
-  std::vector<float> weight;
-  /// The weighted error of each pixel, in squared steps; larger where nothing is painted.
-  std::vector<float> error;
-  std::vector<float> coverage;   ///< as the canvas's
-  std::vector<float> disparity;  ///< pixels
+  const int left, top, width, height;
 
   std::size_t at(int x, int y) const {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
@@ -103,11 +86,25 @@ struct FitTile {
   bool contains(float x, float y) const {
     return x >= 0 && y >= 0 && x < static_cast<float>(width) && y < static_cast<float>(height);
   }
-  /// Computes the error of a pixel from its wanted and painted colours.
-  void find_error(std::size_t pixel) {
-    error[pixel] = is_bare(pixel) ? squared_error_of_bare : weight[pixel] * squared(wanted[pixel] - painted[pixel]);
+  FitColour wanted(int x, int y) const {
+    const ReferencePicture& reference = plan_.reference;
+    return FitColour::of(reference.red(left + x, top + y), reference.green(left + x, top + y),
+                         reference.blue(left + x, top + y));
   }
-  bool is_bare(std::size_t pixel) const { return coverage[pixel] < 0.5f; }
+  FitColour painted(int x, int y) const { return canvas_(left + x, top + y).colour(); }
+  bool is_bare(int x, int y) const { return canvas_(left + x, top + y).is_bare(); }
+  float disparity(int x, int y) const { return plan_.view.disparity(left + x, top + y); }
+  /// How much a difference counts.
+  float weight(int x, int y) const { return plan_.weights(left + x, top + y); }
+  /// The weighted error of a pixel, in squared steps; larger where nothing is painted.
+  float error(int x, int y) const { return error_[at(x, y)]; }
+  /// Paints a pixel of the canvas; `cover`: 0..1.
+  void paint(int x, int y, const FitColour& colour, float cover);
+
+ private:
+  const LayerPlan& plan_;
+  PaintedPicture& canvas_;
+  std::vector<float> error_;
 };
 
 /// A stroke that is fitted to a tile, in the tile's pixels.
@@ -128,8 +125,8 @@ float fitted_reach_px(float radius_px);
 /// it gains less than the plan asks for. `random` varies its colour.
 std::optional<FittedStroke> fit_stroke(const FitTile& tile, const LayerPlan& plan, int x, int y, std::uint64_t random);
 
-/// Paints a fitted stroke in the tile, and on the canvas that contains the tile.
-void paint_stroke(const FittedStroke& stroke, const LayerPlan& plan, FitTile& tile, PaintedPicture& canvas);
+/// Paints a fitted stroke on the canvas of its tile.
+void paint_stroke(const FittedStroke& stroke, const LayerPlan& plan, FitTile& tile);
 
 /// Plans the strokes of one layer by fitting each to the picture, on a canvas that holds those before it. A stroke is
 /// kept if it lowers the squared difference between picture and canvas enough. Cells of 1.3 R are visited in two

@@ -22,11 +22,13 @@ Canvas canvas_of(const View& view, const Style& style) {
   return {view.colour.width(), view.colour.height(), style.canvas_colour};
 }
 
-/// Radii from the broadest brush down to the finest, each .45 of the one before.
+/// Radii from the broadest brush down to the finest, in even steps of about .45.
 std::vector<float> radii_between(float broadest_px, float finest_px) {
-  constexpr float ratio = 0.45f;
+  constexpr float usual_step = 0.45f;
+  const float steps = std::max(std::round(std::log(finest_px / broadest_px) / std::log(usual_step)), 1.f);
+  const float step = std::pow(finest_px / broadest_px, 1 / steps);
   std::vector<float> radii;
-  for (float radius = broadest_px; radius > finest_px; radius *= ratio) radii.push_back(radius);
+  for (float i = 0; i < steps; ++i) radii.push_back(broadest_px * std::pow(step, i));
   radii.push_back(finest_px);
   return radii;
 }

@@ -135,8 +135,10 @@ class ViewPainter {
   bool is_whole() const { return view_.wanted.empty(); }
 
   int factor_for(int layer) const {
-    // At the beginning of a scene all strokes are new, so that a few less exact ones would show.
-    const float least_radius_px = style_.marks == Marks::fitted_strokes ? 5 : motion_ == nullptr ? 12 : 6;
+    // Places that the ground leaves bare would show between finer strokes. At the beginning of a scene all traced
+    // strokes are new, so that a few less exact ones would show.
+    const bool fitted = style_.marks == Marks::fitted_strokes;
+    const float least_radius_px = fitted ? (layer == 0 ? 5 : 2.5f) : motion_ == nullptr ? 12 : 6;
     const auto number = static_cast<std::size_t>(layer);
     const bool is_finest = number + 1 == radii_px_.size();
     return is_finest ? 1 : factor_for_layer(view_, radii_px_[number], least_radius_px);
