@@ -37,10 +37,9 @@ void put_positions(const py::object& given, Cloud& cloud) {
   const std::array<std::vector<float>*, 3> axes{&cloud.x, &cloud.y, &cloud.z};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     // A column in place, whatever its stride; other kinds of numbers than double precision are converted.
-    const auto numbers =
-        py::cast<py::array_t<double, py::array::forcecast>>(
-            py::object(array[py::make_tuple(py::slice(std::nullopt, std::nullopt, std::nullopt), axis)]))
-            .unchecked<1>();
+    const auto column = py::cast<py::array_t<double, py::array::forcecast>>(
+        py::object(array[py::make_tuple(py::slice(std::nullopt, std::nullopt, std::nullopt), axis)]));
+    const auto numbers = column.unchecked<1>();  // borrows
     cloud.origin[axis] = numbers(0);
     axes[axis]->resize(count);
     for (std::size_t i = 0; i < count; ++i) {

@@ -161,6 +161,14 @@ class InPlace(unittest.TestCase):
                 np.testing.assert_allclose(gas.positions, positions, rtol=1e-5, atol=1e-5)
         self.assertGreater(self.taken(positions.astype(np.float32), mass)[1], 8 * count)  # is converted, axis by axis
 
+    def test_other_kinds_of_numbers_give_the_same_positions(self):
+        for count in (1, 1000, 200_000, 3_000_000):
+            positions = np.random.default_rng(5).integers(-1000, 1000, size=(count, 3))
+            expected = wheatstone.Particles(positions.astype(np.float64)).positions
+            for kind in (np.float32, np.int16, np.int64):
+                with self.subTest(f"{count} of {kind.__name__}"):
+                    np.testing.assert_array_equal(wheatstone.Particles(positions.astype(kind)).positions, expected)
+
     def test_units_that_need_no_change_are_not_copied(self):
         for package, quantity, unit in [("unyt", "unyt_array", "kpc"), ("astropy.units", "Quantity", "kpc")]:
             try:

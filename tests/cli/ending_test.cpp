@@ -118,8 +118,8 @@ TEST(EndingLong, OfOtherLongStagesTakesLessThanASecondAndLeavesNothing) {
        {"measure", "stereo", left, right, "--photographs", left, right}});
 }
 
-// The address sanitizer needs more addresses than the limit leaves.
-#ifndef __SANITIZE_ADDRESS__
+// Sanitizers need more addresses than the limit leaves.
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 TEST(Ending, WithoutMemoryIsExitCodeFour) {
   const TemporaryFolder folder;
   constexpr std::size_t mib = std::size_t{1} << 20;
