@@ -70,6 +70,24 @@ TEST(PlanAgain, EqualsPlanningAnewAfterEachOfManyTouches) {
   }
 }
 
+TEST(PlanAgainLong, EqualsPlanningAnewAfterTwoHundredTouchesAndTheFirstWhenTheyAreUndone) {
+  constexpr int touches = 200, compared_every = 20;
+  Retouched picture("oil");
+  const Painting first = picture.again();
+  for (int i = 1; i <= touches; ++i) {
+    picture.touch();
+    const Painting again = picture.again();
+    if (i % compared_every == 0) {
+      ASSERT_EQ(again, picture.anew()) << "after touch " << i;
+    }
+  }
+  while (!picture.touches.empty()) {
+    picture.touches.pop_back();
+    if (picture.touches.size() % compared_every == 0) picture.again();
+  }
+  EXPECT_EQ(picture.again(), first);
+}
+
 TEST(PlanAgain, GoesBackToTheFirstPaintingWhenTouchesAreUndone) {
   Retouched picture("oil");
   const Painting first = picture.again();
