@@ -306,7 +306,7 @@ std::optional<FittedStroke> fit_stroke(const FitTile& tile, const LayerPlan& pla
   const FitColour variation = varied(random);
   if (is_hopeless(path, tile, plan, variation)) return {};
   const PathFit best = fit_along(path, tile, plan, variation, 1);
-  constexpr float of_dab = 2;  // a dab alone looks like a speck
+  constexpr float of_dab = 4;  // a dab alone looks like a speck
   if (best.gain < (path.is_dab ? of_dab : 1) * plan.least_gain) return {};
   const auto [first, end] = shortened(path, length_shares[best.length], least_points(path));
   const auto colour_at = [&](std::size_t point) {
