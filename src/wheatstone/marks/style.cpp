@@ -72,12 +72,9 @@ Style style_by_name(std::string_view name) {
     style.brush = {.bristle_px = 1, .streaks = 12, .ridge = 8, .dry = 0.35f};
     return style;
   }
-  if (name == "impressionist") return style;
-  if (name == "dual") {
-    style.dual = true;
-    style.brush = {.bristle_px = 1, .streaks = 14, .ridge = 14, .dry = 0.3f};
-    return style;
-  }
+  style.dual = name == "dual";
+  if (style.dual) style.brush = {.bristle_px = 1, .streaks = 14, .ridge = 14, .dry = 0.3f};
+  if (name == "impressionist" || style.dual) return style;
   if (name == "expressionist") {
     style.threshold = 50;
     style.curvature = 0.25f;
