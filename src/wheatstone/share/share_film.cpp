@@ -103,28 +103,16 @@ SharedPicture share_film(const fs::path& film, const ShareFilmOptions& options) 
                             "QuickTime, Matroska or WebM",
                             film.string(), views.facts.codec, views.facts.container));
   // A light-field display's views stand farther apart than the eyes that look at it.
-  const int count = views.places.columns * views.places.rows;
-  constexpr int eye_share = 8;
-  const int steps = std::max(count - 1, 1), apart = std::max(steps / eye_share, 1);
   SharedPicture shared{.width = views.still.width(), .height = views.still.height()};
   shared.still_jpeg = still_of(views.still);
   // The page plays what there is.
   if (views.loss) shared.note = *views.loss;
-  Json facts{{"kind", "views"},
-             {"title", options.title},
-             {"width", shared.width},
-             {"height", shared.height},
-             {"separation", static_cast<double>(apart) / steps},
-             {"zeroParallax", 0},
-             {"first", -0.5},
-             {"last", 0.5},
-             {"columns", views.places.columns},
-             {"rows", views.places.rows},
-             {"upwards", views.upwards},
-             {"leftwards", views.leftwards},
-             {"type", type},
-             {"codec", codec->words},
-             {"hasSound", std::ranges::count(views.facts.side_streams, "audio", &SideStream::kind) > 0}};
+  Json facts = facts_of_views(options.title, shared.width, shared.height, views.places);
+  facts["upwards"] = views.upwards;
+  facts["leftwards"] = views.leftwards;
+  facts["type"] = type;
+  facts["codec"] = codec->words;
+  facts["hasSound"] = std::ranges::count(views.facts.side_streams, "audio", &SideStream::kind) > 0;
   facts["hasSubtitles"] = !options.subtitles.empty();
   if (!options.subtitles.empty()) shared.parts.push_back(subtitles_part(options.subtitles));
   const std::uintmax_t bytes = fs::file_size(film);

@@ -72,6 +72,22 @@ QuiltLayout layout_for(int views) {
 
 }  // namespace
 
+Json facts_of_views(const std::string& title, int width, int height, const QuiltLayout& places) {
+  // Two eyes look at views that are an eighth of all apart.
+  constexpr int eye_share = 8;
+  const int steps = std::max(places.columns * places.rows - 1, 1), apart = std::max(steps / eye_share, 1);
+  return {{"kind", "views"},
+          {"title", title},
+          {"width", width},
+          {"height", height},
+          {"separation", static_cast<double>(apart) / steps},
+          {"zeroParallax", 0},
+          {"first", -0.5},
+          {"last", 0.5},
+          {"columns", places.columns},
+          {"rows", places.rows}};
+}
+
 SharedPicture share_views(std::span<const Image<Rgb8>> views, const std::string& title) {
   if (views.empty()) throw Error(ErrorKind::wrong_usage, "there are 0 views, expected at least 1");
   constexpr int widest_px = 8192, quality = 92;
@@ -90,21 +106,10 @@ SharedPicture share_views(std::span<const Image<Rgb8>> views, const std::string&
   SharedPicture shared{.width = size.width, .height = size.height};
   shared.parts.push_back({"views", {quilt.begin(), quilt.end()}});
   shared.still_jpeg = still_of(scale < 1 ? smaller[smaller.size() / 2] : views[views.size() / 2]);
-  // Two eyes look at views that are an eighth of all apart.
-  constexpr int eye_share = 8;
-  const int steps = std::max(count - 1, 1), apart = std::max(steps / eye_share, 1);
-  shared.facts = text_of({{"kind", "views"},
-                          {"title", title},
-                          {"width", size.width},
-                          {"height", size.height},
-                          {"separation", static_cast<double>(apart) / steps},
-                          {"zeroParallax", 0},
-                          {"first", -0.5},
-                          {"last", 0.5},
-                          {"columns", layout.columns},
-                          {"rows", layout.rows},
-                          {"upwards", true},
-                          {"type", "image/jpeg"}});
+  Json facts = facts_of_views(title, size.width, size.height, layout);
+  facts["upwards"] = true;
+  facts["type"] = "image/jpeg";
+  shared.facts = text_of(facts);
   return shared;
 }
 

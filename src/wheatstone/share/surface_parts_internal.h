@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "wheatstone/display/quilt.h"
 #include "wheatstone/marks/surfaces.h"
 #include "wheatstone/share/page.h"
 
@@ -23,5 +24,8 @@ void add_pictures(std::span<const Image<Rgb8>> pictures, const Surfaces& surface
 
 /// Facts as a page holds them. What is no UTF-8 in names is replaced.
 std::string text_of(const Json& facts);
+
+/// What every page of views from the left eye to the right one says of them; they lie as in a quilt.
+Json facts_of_views(const std::string& title, int width, int height, const QuiltLayout& places);
 
 }  // namespace wheatstone
