@@ -69,7 +69,7 @@ TEST(Slicing, LeavesNothingBareThatTheUnderpaintingCovers) {
     for (const char* depth : {"20%", "50%", "100%"}) {
       const Painting part =
           sliced(painting(), {.finest_layer = static_cast<int>(layer), .depths = parse_slice_depths(depth, "depth")});
-      EXPECT_LE(present(part, for_two_eyes()).worst_bare_share, 0.01) << layer << " " << depth;
+      EXPECT_LE(present(part, for_two_eyes()).worst_bare_share, 0.002) << layer << " " << depth;
     }
 }
 

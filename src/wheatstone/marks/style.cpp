@@ -68,7 +68,7 @@ Style style_by_name(std::string_view name) {
     style.radii_px = {20, 1.3f};
     style.blur = 0.25f;
     style.reference_filter = ReferenceFilter::gaussian;
-    style.fineness = 0.44f;
+    style.fineness = 0.43f;
     style.brush = {.bristle_px = 1, .streaks = 12, .ridge = 8, .dry = 0.35f};
     return style;
   }

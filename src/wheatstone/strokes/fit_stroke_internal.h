@@ -45,9 +45,9 @@ Image<float> difference_weights(const LayerPlan& plan);
 
 /// The error of a pixel, in squared steps, from the difference between what is wanted and what is painted.
 inline float error_of(const FitColour& difference, bool is_bare, float weight) {
-  constexpr float of_bare = 900;
+  constexpr float of_bare = 900;  // more than paint of another colour costs, at any weight
   const float painted = weight * squared(difference);
-  return is_bare ? of_bare : painted;
+  return is_bare ? of_bare * std::max(weight, 1.f) : painted;
 }
 
 /// A pixel of a canvas while a layer is fitted: as Canvas, in half the memory.
