@@ -65,7 +65,7 @@ void follow(const FitTile& tile, const LayerPlan& plan, PlanePoint from, Directi
 void lengthen(const FitTile& tile, const LayerPlan& plan, Direction direction, Path& path) {
   const PlanePoint middle = path.points[path.begun];
   const auto disparity_at = [&](PlanePoint p) { return tile.disparity(static_cast<int>(p.x), static_cast<int>(p.y)); };
-  const float half_length = std::max(1.4f * plan.radius_px, 2.f);
+  const float half_length = std::max(1.8f * plan.radius_px, 2.5f);
   path.points = {middle};
   for (const float way : {-half_length, half_length}) {
     const PlanePoint end{middle.x + way * direction.x, middle.y + way * direction.y};
@@ -306,7 +306,7 @@ std::optional<FittedStroke> fit_stroke(const FitTile& tile, const LayerPlan& pla
   const FitColour variation = varied(random);
   if (is_hopeless(path, tile, plan, variation)) return {};
   const PathFit best = fit_along(path, tile, plan, variation, 1);
-  constexpr float of_dab = 4;  // a dab alone looks like a speck
+  constexpr float of_dab = 3.5f;  // a dab alone looks like a speck
   if (best.gain < (path.is_dab ? of_dab : 1) * plan.least_gain) return {};
   const auto [first, end] = shortened(path, length_shares[best.length], least_points(path));
   const auto colour_at = [&](std::size_t point) {
