@@ -18,7 +18,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       reader(raw);
       reader.expect_end();
       wheatstone::ReadModel read;
-      wheatstone::assemble_model(raw, "model.obj", {}, read);
+      wheatstone::assemble_model(raw, {"OBJ", "obj", true}, "model.obj", {}, read);
     }
   } catch (const wheatstone::Error&) {
   }

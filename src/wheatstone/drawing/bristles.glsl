@@ -1,6 +1,8 @@
 // The paint of one stroke from place to place: the twin of bristles_simd_internal.h. The including file defines PAINT,
 // and `streaks` and `ridge` as members of its work.
 
+#include "wheatstone/drawing/bristle_noise.glsl"
+
 layout(binding = 0) uniform usamplerBuffer strokes_bristles;    // two texels a stroke
 layout(binding = 1) uniform usamplerBuffer places_of_segments;  // a texel each
 layout(binding = 2) uniform usamplerBuffer brush_picture;       // bytes of class BrushPicture, 16 a texel
@@ -41,21 +43,6 @@ struct Paint {
   float share;  // of the colour's change, 0..1
   float tone;   // levels to be added to the colour
 };
-
-// A hash of a lattice point, 0..1.
-float lattice(uint seed, uint which, int point) {
-  uint h = uint(point) * 0x9e3779b9u + seed + which * 0x85ebca6bu;
-  h = (h ^ h >> 16) * 0x7feb352du;
-  h = (h ^ h >> 15) * 0x846ca68bu;
-  return float((h ^ h >> 16) >> 8) / 16777216.0;
-}
-
-// Smooth noise 0..1 between lattice points a unit apart; `which` tells several apart.
-float noise(uint seed, uint which, float place) {
-  float cell = floor(place);
-  float part = place - cell;
-  return mix(lattice(seed, which, int(cell)), lattice(seed, which, int(cell) + 1), part * part * (3 - 2 * part));
-}
 
 #if PAINT == BRISTLES
 // How much of a stroke's paint the brush's picture takes away, 0..1.

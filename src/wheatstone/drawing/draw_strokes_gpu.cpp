@@ -142,7 +142,7 @@ float still_depth_of(std::span<const Segment> segments) {
 
 StrokesForGpu::StrokesForGpu(const PreparedStrokes& painting, const PreparedSurfaces& surfaces) {
   const bool varies = paint_of(painting) != PaintInStrokes::even;
-  for_strokes_from_nearest(painting, [&](const BandedLayer& layer, std::size_t place, std::size_t /*of_layer*/) {
+  for_strokes_from_nearest(painting, [&](const BandedLayer& layer, std::size_t place) {
     const FlatStroke& stroke = layer.flat.strokes[place];
     const auto number = static_cast<std::uint32_t>(strokes.size());
     strokes.push_back(stroke_for_gpu(stroke, kind_of(stroke.reference_view, surfaces)));

@@ -71,12 +71,12 @@ struct StrokesForGpu {
   float still_depth = 0;  ///< the middle of all disparities
 };
 
-/// Calls `use` with each stroke's layer, its place and its layer's number, from the nearest stroke to the farthest.
+/// Calls `use` with each stroke's layer and its place there, from the nearest stroke to the farthest.
 template <class Use>
 void for_strokes_from_nearest(const PreparedStrokes& painting, Use use) {
   for (std::size_t layer = painting.layers.size(); layer-- > 0;)
     for (std::size_t place = painting.layers[layer].flat.strokes.size(); place-- > 0;)
-      use(painting.layers[layer], place, layer);
+      use(painting.layers[layer], place);
 }
 
 /// Calls `use` with the vertices at both ends of each segment of a stroke. A dot has one segment, of length 0.

@@ -7,38 +7,40 @@
 #include <limits>
 
 #include "wheatstone/drawing/relief.h"
-#include "wheatstone/random.h"
 
 namespace wheatstone {
 namespace {
 
-/// Where a pixel lies on a stroke: how far along it, how far beside it (left is negative), and its distance.
+/// Where a pixel lies on a stroke: how far along it, in the central view, and across it, as DistanceBand keeps these;
+/// and its distance.
 struct OnStroke {
   float distance = std::numeric_limits<float>::infinity();
   float along = 0;
-  float beside = 0;
+  float across = 0;
 };
 
-/// Smooth noise between lattice points a unit apart.
-float smooth_noise(std::uint64_t seed, float place) {
-  const float cell = std::floor(place), t = place - cell;
-  const auto at = [&](float c) {
-    return unit_float(hash_keys({seed, static_cast<std::uint64_t>(static_cast<std::int64_t>(c))}));
-  };
-  const float weight = t * t * (3 - 2 * t);
-  return at(cell) * (1 - weight) + at(cell + 1) * weight;
+/// A hash of a lattice point, 0..1: the same number as of class Bristles.
+float lattice(std::uint32_t seed, std::uint32_t which, float cell) {
+  std::uint32_t h = static_cast<std::uint32_t>(static_cast<std::int32_t>(cell)) * 0x9e3779b9u;
+  h += seed + which * 0x85ebca6bu;
+  h = (h ^ h >> 16) * 0x7feb352du;
+  h = (h ^ h >> 15) * 0x846ca68bu;
+  return static_cast<float>((h ^ h >> 16) >> 8) * 0x1p-24f;
 }
 
-/// The height that a stroke's own bristles leave there, 0..1: ridges along it that come and go, lower at the rim.
-float bristle_height(std::uint64_t seed, float radius_px, float bristle_px, const OnStroke& place) {
-  constexpr float run_in_bristles = 5.625f;
-  const float lane = place.beside / bristle_px;
-  const float ridge = smooth_noise(seed, lane);
-  const float along =
-      smooth_noise(hash_keys({seed, static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(lane)))}),
-                   place.along / (run_in_bristles * bristle_px));
-  const float to_rim = std::clamp(place.distance / radius_px, 0.f, 1.f);
-  return (0.7f * ridge + 0.3f * along) * (1 - 0.35f * to_rim * to_rim);
+float noise(std::uint32_t seed, std::uint32_t which, float place) {
+  const float cell = std::floor(place), part = place - cell;
+  const float first = lattice(seed, which, cell);
+  return first + part * part * (3 - 2 * part) * (lattice(seed, which, cell + 1) - first);
+}
+
+/// The height of the paint there, 0..1, lower at the rim: it stands up where the streaks of class Bristles are lighter.
+float bristle_height(const FlatStroke& stroke, float bristle_px, const OnStroke& place) {
+  const float width = std::max(bristle_px, stroke.radius_px / 6), lane = place.across / width;
+  const float fine = noise(stroke.seed, 3, lane);
+  const float broad = noise(stroke.seed, 4, lane / 2.3f + place.along / (3 * stroke.radius_px));
+  const float to_rim = std::clamp(place.distance / stroke.radius_px, 0.f, 1.f);
+  return (0.57f * fine + 0.43f * broad) * (1 - 0.35f * to_rim * to_rim);
 }
 
 /// The relief of a band of rows, and the places of its pixels on the stroke at hand.
@@ -52,21 +54,17 @@ class ReliefBand {
         relief_(relief),
         places_(static_cast<std::size_t>(relief.width()) * static_cast<std::size_t>(band_rows)) {}
 
-  void add(const SeenLayer& layer, const FlatStroke& stroke, std::uint64_t seed) {
+  void add(const SeenLayer& layer, const FlatStroke& stroke) {
     const BrushProfile brush(stroke.radius_px);
     Columns touched{relief_.width(), 0};
-    float along = 0;
     const std::uint32_t segments = std::max(stroke.vertex_count, 2u) - 1;
     for (std::uint32_t s = 0; s < segments; ++s) {
       const std::size_t from = stroke.first_vertex + s,
                         to = std::min(s + 1, stroke.vertex_count - 1) + stroke.first_vertex;
-      const std::vector<float>&y = layer.flat.y, &disparity = layer.flat.disparity;
-      measure({{layer.x(from), y[from], disparity[from]},
-               {layer.x(to), y[to], disparity[to]},
-               along,
-               stroke.reference_view},
-              brush.reach_px, touched);
-      along += std::hypot(layer.x(to) - layer.x(from), y[to] - y[from]);
+      const auto point = [&](std::size_t vertex) {
+        return Point{layer.x(vertex), layer.flat.y[vertex], layer.flat.disparity[vertex], layer.flat.along[vertex]};
+      };
+      measure({point(from), point(to), stroke.reference_view}, brush.reach_px, touched);
     }
     const int first = std::max(static_cast<int>(std::floor(stroke.top - brush.reach_px)), top_);
     const int end = std::min(static_cast<int>(std::ceil(stroke.bottom + brush.reach_px)) + 1, bottom_);
@@ -74,7 +72,7 @@ class ReliefBand {
       for (int x = touched.left; x < touched.right; ++x) {
         OnStroke& place = at(x, y);
         const float cover = stroke.opacity * brush.cover(place.distance);
-        if (cover > 0) lay(seed, stroke.radius_px, cover, place, relief_(x, y));
+        if (cover > 0) lay(stroke, cover, place, relief_(x, y));
         place = {};
       }
     }
@@ -82,12 +80,11 @@ class ReliefBand {
 
  private:
   struct Point {
-    float x, y, disparity;
+    float x, y, disparity, along;
   };
-  /// A segment of a stroke's spine; `along` is the length of the spine before it.
+  /// A segment of a stroke's spine.
   struct Segment {
     Point a, b;
-    float along;
     ViewPosition planned_in;
   };
   struct Columns {
@@ -100,15 +97,15 @@ class ReliefBand {
   }
 
   /// New paint levels what is below it, but not wholly, and stands a little above it.
-  void lay(std::uint64_t seed, float radius_px, float cover, const OnStroke& place, float& height) const {
+  void lay(const FlatStroke& stroke, float cover, const OnStroke& place, float& height) const {
     constexpr float shows_through = 0.25f;
-    const float own = bristle_height(seed, radius_px, bristle_px_, place);
+    const float own = bristle_height(stroke, bristle_px_, place);
     height += cover * (own + shows_through * height - height);
   }
 
   /// Notes the pixels to which this is the nearest segment so far, and widens `touched` to their columns.
   void measure(const Segment& segment, float reach, Columns& touched) {
-    const auto [a, b, along, planned_in] = segment;
+    const auto [a, b, planned_in] = segment;
     const float dx = b.x - a.x, dy = b.y - a.y, length = std::hypot(dx, dy);
     const int first_x = std::max(static_cast<int>(std::floor(std::min(a.x, b.x) - reach)), 0);
     const int end_x = std::min(static_cast<int>(std::ceil(std::max(a.x, b.x) + reach)) + 1, relief_.width());
@@ -127,8 +124,8 @@ class ReliefBand {
         const float disparity = a.disparity + t * (b.disparity - a.disparity);
         if (is_hidden(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f, disparity, planned_in, hiding_))
           continue;
-        const float beside = length > 0 ? (px * dy - py * dx) / length : py;
-        place = {distance, along + t * length, beside};
+        const float across = length > 0 ? (dx * py - dy * px) / length : py;
+        place = {distance, a.along + t * (b.along - a.along), across};
       }
     }
   }
@@ -143,10 +140,6 @@ class ReliefBand {
 
 }  // namespace
 
-std::uint64_t bristle_seed(const FlatStroke& stroke, std::size_t place, std::size_t layer) {
-  return hash_keys({layer, stroke.number != 0 ? stroke.number : place});
-}
-
 Image<float> relief_of(const PreparedStrokes& painting, ViewPosition view, const Hiding& hiding, float bristle_px) {
   std::vector<SeenLayer> layers;
   for (const BandedLayer& layer : painting.layers) layers.emplace_back(layer.flat, view);
@@ -156,7 +149,7 @@ Image<float> relief_of(const PreparedStrokes& painting, ViewPosition view, const
     for (std::size_t l = 0; l < layers.size(); ++l) {
       for (const std::uint32_t place : painting.layers[l].bands[static_cast<std::size_t>(i)]) {
         const FlatStroke& stroke = layers[l].flat.strokes[place];
-        if (stroke.views.contains(view)) band.add(layers[l], stroke, bristle_seed(stroke, place, l));
+        if (stroke.views.contains(view)) band.add(layers[l], stroke);
       }
     }
   });
@@ -195,7 +188,9 @@ void light_paint(const PreparedStrokes& painting, ViewPosition view, const Hidin
 Relief relief_for(const Style& style, int width) {
   constexpr float ridges_px = 1.1f;  // for a picture 640 pixels wide
   Relief relief;
-  if (style.texture) relief.depth_px = ridges_px * style_scale(style, width);
+  if (!style.texture) return relief;
+  relief.depth_px = ridges_px * style_scale(style, width);
+  if (const Brush brush = brush_for(style, width); brush.bristle_px > 0) relief.bristle_px = brush.bristle_px;
   return relief;
 }
 

@@ -1,5 +1,4 @@
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -7,7 +6,6 @@
 #include "relief_strokes_source.h"
 #include "wheatstone/drawing/painting_gpu_internal.h"
 #include "wheatstone/drawing/relief_internal.h"
-#include "wheatstone/random.h"
 
 namespace wheatstone {
 namespace {
@@ -28,7 +26,7 @@ struct ReliefWork {
 /// Strokes as relief_strokes.comp reads them, in the order of StrokesForGpu.
 struct ReliefForGpu {
   struct Stroke {
-    std::uint32_t seed_low, seed_high;
+    std::uint32_t seed;
     float radius_px, opacity;
     float middle_px, rim_px;
     float first_view, last_view;
@@ -37,20 +35,18 @@ struct ReliefForGpu {
   struct Segment {
     float x, y, dx, dy;
     float depth, depth_step;
-    float before, before_by, before_by_two;
+    float begin_px, along_px;
     float reach;
     std::uint32_t stroke;
   };
 
   ReliefForGpu(const PreparedStrokes& painting, const PreparedSurfaces& surfaces) {
-    for_strokes_from_nearest(painting, [&](const BandedLayer& layer, std::size_t place, std::size_t number_of_layer) {
+    for_strokes_from_nearest(painting, [&](const BandedLayer& layer, std::size_t place) {
       const FlatStroke& stroke = layer.flat.strokes[place];
       const BrushProfile brush(stroke.radius_px);
-      const std::uint64_t seed = hash_keys({bristle_seed(stroke, place, number_of_layer)});
       add_segments(layer.flat, stroke, brush.reach_px);
-      strokes.push_back({static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32), stroke.radius_px,
-                         stroke.opacity, brush.middle_px, brush.rim_px, stroke.views.first - central_view,
-                         stroke.views.last - central_view,
+      strokes.push_back({stroke.seed, stroke.radius_px, stroke.opacity, brush.middle_px, brush.rim_px,
+                         stroke.views.first - central_view, stroke.views.last - central_view,
                          static_cast<std::int32_t>(kind_of(stroke.reference_view, surfaces))});
     });
   }
@@ -60,17 +56,11 @@ struct ReliefForGpu {
 
  private:
   void add_segments(const FlatLayer& layer, const FlatStroke& stroke, float reach) {
-    // The length of a spine depends on the view. The parabola through those of the eyes and of the central view is near
-    // enough to it everywhere.
-    std::array<float, 3> before{};
     for_segments(stroke, [&](std::uint32_t from, std::uint32_t to) {
-      const float dx = layer.x[to] - layer.x[from], dy = layer.y[to] - layer.y[from],
-                  step = layer.disparity[to] - layer.disparity[from];
-      segments.push_back({layer.x[from], layer.y[from], dx, dy, layer.disparity[from], step, before[1],
-                          before[2] - before[0], 2 * (before[2] + before[0]) - 4 * before[1], reach,
+      const auto change = [&](const std::vector<float>& of) { return of[to] - of[from]; };
+      segments.push_back({layer.x[from], layer.y[from], change(layer.x), change(layer.y), layer.disparity[from],
+                          change(layer.disparity), layer.along[from], change(layer.along), reach,
                           static_cast<std::uint32_t>(strokes.size())});
-      for (std::size_t eye = 0; eye < 3; ++eye)
-        before[eye] += std::hypot(dx - (0.5f * static_cast<float>(eye) - 0.5f) * step, dy);
     });
   }
 };

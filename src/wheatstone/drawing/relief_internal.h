@@ -1,17 +1,10 @@
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
-
 #include "wheatstone/drawing/hiding.h"
 #include "wheatstone/drawing/prepared_strokes_internal.h"
 #include "wheatstone/marks/painting.h"
 
 namespace wheatstone {
-
-/// The seed of a stroke's bristles, the same in every view and frame: its number or, without one, its place in its
-/// layer.
-std::uint64_t bristle_seed(const FlatStroke& stroke, std::size_t place, std::size_t layer);
 
 /// The height of the paint of every pixel as one view sees it, 0 on the bare canvas, about 1 on the ridges (Hertzmann
 /// 2002, fast paint texture): each stroke has the bristles of its brush along it, and lies on what is below it, in

@@ -5,11 +5,11 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
+#include "wheatstone/drawing/bristle_noise.glsl"
 #include "wheatstone/gpu/views.glsl"
 
 const float shows_through = 0.25;  // of what new paint levels
 const float buried = 1.0 / 1024;
-const float run_in_bristles = 5.625;
 
 // The members of struct ReliefWork in relief_gpu.cpp.
 layout(std430, binding = 0) readonly buffer Work {
@@ -22,7 +22,7 @@ layout(std430, binding = 0) readonly buffer Work {
   float view[most_views];
 };
 struct Stroke {
-  uint seed_low, seed_high;  // the hash of its bristles' seed
+  uint seed;  // of its bristles
   float radius_px, opacity;
   float middle_px, rim_px;
   float first_view, last_view;
@@ -31,8 +31,8 @@ struct Stroke {
 layout(std430, binding = 1) readonly buffer Strokes { Stroke strokes[]; };
 struct Segment {
   float x, y, dx, dy;
-  float depth, depth_step;                 // disparity of its beginning, and the step to its end
-  float before, before_by, before_by_two;  // length of the spine before it: a polynomial of the view's place
+  float depth, depth_step;   // disparity of its beginning, and the step to its end
+  float begin_px, along_px;  // along the stroke, in the central view
   float reach;
   uint stroke;
 };
@@ -49,7 +49,7 @@ struct Seen {
   float x, y, dx, dy;
   float by_length2;
   float depth, depth_step;
-  float before;
+  float begin_px, along_px;
   uint stroke;
 };
 
@@ -67,7 +67,8 @@ Seen seen(Segment of, float shift) {
   here.by_length2 = length2 > 0 ? 1 / length2 : 0;
   here.depth = of.depth;
   here.depth_step = of.depth_step;
-  here.before = of.before + shift * (of.before_by + shift * of.before_by_two);
+  here.begin_px = of.begin_px;
+  here.along_px = of.along_px;
   here.stroke = of.stroke;
   return here;
 }
@@ -77,43 +78,6 @@ bool reaches_tile(Seen here, float reach) {
   return reaches(vec2(here.x, here.y), vec2(here.dx, here.dy), here.by_length2, reach, low, low + 8);
 }
 
-// Numbers of 64 bits: the lower half, then the upper one.
-uvec2 sum_of(uvec2 a, uvec2 b) {
-  uint carry;
-  uint low = uaddCarry(a.x, b.x, carry);
-  return uvec2(low, a.y + b.y + carry);
-}
-
-uvec2 product_of(uvec2 a, uvec2 b) {
-  uint high, low;
-  umulExtended(a.x, b.x, high, low);
-  return uvec2(low, high + a.x * b.y + a.y * b.x);
-}
-
-uvec2 folded(uvec2 a, int bits) { return a ^ uvec2(a.x >> bits | a.y << (32 - bits), a.y >> bits); }
-
-// One more key into a hash: the twin of hash_keys in random.h.
-uvec2 hashed(uvec2 state, uvec2 key) {
-  state = sum_of(state, sum_of(key, uvec2(0x7F4A7C15u, 0x9E3779B9u)));
-  state = product_of(folded(state, 30), uvec2(0x1CE4E5B9u, 0xBF58476Du));
-  state = product_of(folded(state, 27), uvec2(0x133111EBu, 0x94D049BBu));
-  return folded(state, 31);
-}
-
-uvec2 hashed(uvec2 state, float whole) {
-  int key = int(whole);
-  return hashed(state, uvec2(uint(key), key < 0 ? ~0u : 0u));
-}
-
-float unit_float(uvec2 hash) { return float(hash.y >> 8) / 16777216.0; }
-
-// Smooth noise between lattice points a unit apart, of a hashed seed.
-float smooth_noise(uvec2 seed, float place) {
-  float cell = floor(place);
-  float t = place - cell;
-  return mix(unit_float(hashed(seed, cell)), unit_float(hashed(seed, cell + 1)), t * t * (3 - 2 * t));
-}
-
 struct Laid {
   float height;
   float shown;  // of the height of what is below
@@ -121,17 +85,15 @@ struct Laid {
 
 // Where a pixel lies on a stroke.
 struct OnStroke {
-  float squared, along, beside;
+  float squared, along, across;
 };
 
 float bristle_height(Stroke stroke, OnStroke place) {
-  uvec2 seed = uvec2(stroke.seed_low, stroke.seed_high);
-  float lane = place.beside / bristle_px;
-  float ridge = smooth_noise(seed, lane);
-  uvec2 of_lane = hashed(uvec2(0x7F4A7C15u, 0x9E3779B9u), hashed(seed, floor(lane)));
-  float along = smooth_noise(of_lane, place.along / (run_in_bristles * bristle_px));
+  float lane = place.across / max(bristle_px, stroke.radius_px / 6);
+  float fine = noise(stroke.seed, 3, lane);
+  float broad = noise(stroke.seed, 4, lane / 2.3 + place.along / (3 * stroke.radius_px));
   float to_rim = clamp(sqrt(place.squared) / stroke.radius_px, 0.0, 1.0);
-  return (0.7 * ridge + 0.3 * along) * (1 - 0.35 * to_rim * to_rim);
+  return (0.57 * fine + 0.43 * broad) * (1 - 0.35 * to_rim * to_rim);
 }
 
 void lay_under(inout Laid laid, uint number, OnStroke place) {
@@ -196,11 +158,9 @@ void main() {
       vec2 away = from - t * along;
       float squared = dot(away, away);
       if (squared >= place.squared || here.depth + t * here.depth_step < below[kind]) continue;
-      float by_length = sqrt(here.by_length2);
-      bool is_dot = here.by_length2 == 0;
-      float length = is_dot ? 0 : 1 / by_length;
-      float beside = is_dot ? from.y : (from.x * along.y - from.y * along.x) * by_length;
-      place = OnStroke(squared, here.before + t * length, beside);
+      float across =
+          here.by_length2 == 0 ? from.y : (along.x * from.y - along.y * from.x) * sqrt(here.by_length2);
+      place = OnStroke(squared, here.begin_px + t * here.along_px, across);
     }
   }
   if (!inside) return;

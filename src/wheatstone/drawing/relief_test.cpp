@@ -39,6 +39,29 @@ TEST(Relief, MovesWithItsStroke) {
   EXPECT_EQ(left(5, 5), 0);
 }
 
+TEST(Relief, StandsUpWhereTheStreaksOfABrushAreLighter) {
+  StrokePainting strokes = one_stroke(0);
+  strokes.layers.front().radius_px = strokes.layers.front().strokes.front().radius_px = 16;
+  strokes.brush = {.bristle_px = 2, .streaks = 40};
+  const Image<float> relief = relief_of(prepare_marks(strokes), left_eye, {}, strokes.brush.bristle_px);
+  const Image<Rgb8> drawn = draw(prepare({.marks = strokes}), left_eye).picture;
+  double heights = 0, levels = 0, both = 0, heights_squared = 0, levels_squared = 0, count = 0;
+  for (int x = 40; x < 60; ++x) {
+    for (int y = 16; y < 26; ++y, ++count) {
+      const double height = relief(x, y), level = drawn(x, y).g;
+      heights += height;
+      levels += level;
+      both += height * level;
+      heights_squared += height * height;
+      levels_squared += level * level;
+    }
+  }
+  const double covariance = both - heights * levels / count;
+  const double spread =
+      std::sqrt((heights_squared - heights * heights / count) * (levels_squared - levels * levels / count));
+  EXPECT_GT(covariance / spread, 0.9);
+}
+
 TEST(Relief, LightLeavesFlatPaintAndBareCanvasAlone) {
   Image<Rgb8> picture(20, 10, {10, 120, 250});
   const Image<Rgb8> before = picture;

@@ -8,8 +8,8 @@ namespace wheatstone {
 /// papers. What a bristle leaves belongs to the stroke, by a hash of its number: it is the same in all views, and stays
 /// on the stroke from frame to frame.
 struct Brush {
-  float bristle_px = 0;  ///< width that a bristle leaves, in pixels of the painting; wide strokes have wider ones; 0:
-                         ///< none, or only those
+  float bristle_px = 0;  ///< least width that a bristle leaves, in pixels of the painting: a sixth of the stroke's
+                         ///< radius where that is more; 0: no bristles, unless there is a picture
   float streaks = 0;     ///< levels, of 255, by which the paint of a bristle may be lighter or darker
   float ridge = 0;       ///< levels by which the paint at a stroke's rim is lighter or darker, lit from the upper left
   float dry = 0;         ///< share of a stroke's length, 0..1, before whose end a bristle may run out of paint

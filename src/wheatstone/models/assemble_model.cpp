@@ -132,11 +132,10 @@ class Assembler {
 
 }  // namespace
 
-void assemble_model(const RawModel& raw, const std::filesystem::path& path, const ModelChoice& choice,
-                    ReadModel& read) {
-  const bool is_gltf = read.format == "glTF";
-  const bool y_up = choice.up == UpAxis::by_format ? is_gltf || read.format == "OBJ" : choice.up == UpAxis::y;
-  Assembler(path, y_up, is_gltf, read).add(raw);
+void assemble_model(const RawModel& raw, const ModelFormat& format, const std::filesystem::path& path,
+                    const ModelChoice& choice, ReadModel& read) {
+  const bool is_y_up = choice.up == UpAxis::by_format ? format.y_up : choice.up == UpAxis::y;
+  Assembler(path, is_y_up, format.linear_colours, read).add(raw);
   Model& model = read.model;
   for (const RawMaterial& material : raw.materials) {
     ModelMaterial& made = model.materials.emplace_back();
@@ -144,7 +143,8 @@ void assemble_model(const RawModel& raw, const std::filesystem::path& path, cons
     if (made.name == importers_material) continue;
     for (std::size_t c = 0; c < 3; ++c) {
       const float value = std::isfinite(material.colour[c]) ? std::clamp(material.colour[c], 0.f, 1.f) : 1.f;
-      made.colour[c] = is_gltf ? value : linear_from_srgb(static_cast<std::uint8_t>(std::lround(255 * value)));
+      made.colour[c] =
+          format.linear_colours ? value : linear_from_srgb(static_cast<std::uint8_t>(std::lround(255 * value)));
     }
   }
   if (model.materials.empty()) model.materials.emplace_back();

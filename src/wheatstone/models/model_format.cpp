@@ -93,8 +93,8 @@ struct KnownFormat {
 };
 
 constexpr std::array formats{
-    KnownFormat{{"glTF", "glb", true}, begins_as_glb, true},
-    KnownFormat{{"glTF", "gltf", true}, begins_as_gltf, true},
+    KnownFormat{{"glTF", "glb", true, true}, begins_as_glb, true},
+    KnownFormat{{"glTF", "gltf", true, true}, begins_as_gltf, true},
     KnownFormat{{"PLY", "ply"}, begins_as_ply_with_faces, false},
     KnownFormat{{"STL", "stl"}, begins_as_stl, true},
     KnownFormat{{"OBJ", "obj", true}, begins_as_obj, true},

@@ -6,9 +6,10 @@
 namespace wheatstone {
 
 struct ModelFormat {
-  std::string_view name;    ///< for people
-  std::string_view ending;  ///< by which the importer knows it
-  bool y_up = false;        ///< by convention
+  std::string_view name;        ///< for people
+  std::string_view ending;      ///< by which the importer knows it
+  bool y_up = false;            ///< by convention; z is up otherwise
+  bool linear_colours = false;  ///< colours of corners and materials are linear light, not sRGB
 };
 
 /// The format of a file by its content, or else by its name; null where it is no model.

@@ -22,7 +22,7 @@ ReadModel read_model(const std::filesystem::path& path, const ModelChoice& choic
   read.format = format->name;
   read.bytes = std::filesystem::file_size(path);
   const RawModel raw = import_in_child(path, std::string(format->ending), import_limits(read.bytes), progress);
-  assemble_model(raw, path, choice, read);
+  assemble_model(raw, *format, path, choice, read);
   read_textures(raw, path, choice, read.model);
   for (const std::string& name : raw.missing)
     read.warnings.push_back(fmt::format("'{}', which the model names, is not in its folder", name));

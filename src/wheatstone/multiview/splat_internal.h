@@ -35,8 +35,8 @@ enum class Deposit : std::uint8_t {
   colours_by_spline,  ///< by the cubic spline kernel, not the Gaussian
   absorbing,          ///< as light, and in the fourth channel the optical depth, by which the three are multiplied
 };
-/// Whether splats are spread over areas of pixels, so that their sums are kept; others have a Gaussian's value at the
-/// middle of a pixel.
+/// Whether splats of the Gaussian kernel are spread over areas of pixels, so that their sums are kept; others have a
+/// Gaussian's value at the middle of a pixel. Of a deposit with another kernel, ask it of its `channels_of`.
 constexpr bool keeps_sums(Deposit deposit) { return deposit == Deposit::mass || deposit == Deposit::colours; }
 /// What particles of an appearance add.
 inline Deposit deposit_of(const SplatStyle& splat_style) {

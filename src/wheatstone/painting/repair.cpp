@@ -34,13 +34,16 @@ Layer strokes_for(const RepairTarget& target, const Style& style) {
   return repair({target, ScaledStyle(style, target.picture.width())}, style);
 }
 
+// One overload for each kind of marks.
+void add_repair(const RepairTarget& target, const Style& style, RegionPainting& regions) {
+  repair(target, style, regions);
+}
+void add_repair(const RepairTarget& target, const Style&, DiffusionPainting& lines) { repair(target, lines); }
+void add_repair(const RepairTarget& target, const Style& style, StrokePainting& strokes) {
+  if (!strokes.layers.empty()) append_strokes(strokes_for(target, style), strokes.layers.back());
+}
 void add_marks(const RepairTarget& target, const Style& style, Painting& painting) {
-  if (auto* const regions = std::get_if<RegionPainting>(&painting.marks))
-    repair(target, style, *regions);
-  else if (auto* const lines = std::get_if<DiffusionPainting>(&painting.marks))
-    repair(target, *lines);
-  else if (auto& layers = std::get<StrokePainting>(painting.marks).layers; !layers.empty())
-    append_strokes(strokes_for(target, style), layers.back());
+  std::visit([&](auto& marks) { add_repair(target, style, marks); }, painting.marks);
 }
 
 /// What a view would show if it saw the reference view's colours where its disparities say so.

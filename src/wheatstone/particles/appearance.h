@@ -89,7 +89,6 @@ struct SplatStyle {
   std::array<float, palette_size> red{}, green{}, blue{};  ///< linear light
 };
 
-/// Throws Error{wrong_usage} where a size, range or colour map makes no sense.
 /// The colours of the coldest and of the hottest particles.
 struct UsualColours {
   Rgb8 cold, hot;
@@ -99,6 +98,7 @@ UsualColours usual_colours(Look look);
 /// 256 colours of a map of OpenCV by name. Throws Error{wrong_usage}.
 std::array<Rgb8, 256> colour_map(const std::string& name);
 
+/// Throws Error{wrong_usage} where a size, range or colour map makes no sense.
 SplatStyle make_splat_style(const Appearance& appearance, const CloudStatistics& statistics);
 
 /// The names that a colour map may have.
