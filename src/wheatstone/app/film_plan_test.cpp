@@ -87,16 +87,25 @@ class PlannedFilm : public testing::Test {
 };
 
 TEST_F(PlannedFilm, DrawnInPartsHasTheBytesOfOneRun) {
-  expect_same("o.mp4", {"o.mp4"}, usual());
   RotoscopeFilmOptions options = usual();
   options.frames.depth_budget = 0.01f;  // the eyes are moved, and a comment says so
   expect_same("o.mp4", {"o.mp4"}, options);
+}
+
+using PlannedFilmLong = PlannedFilm;
+
+TEST_F(PlannedFilmLong, OfTheFilmsOwnEyesAndOfLinesHasTheBytesOfOneRun) {
+  expect_same("o.mp4", {"o.mp4"}, usual());
+  RotoscopeFilmOptions options = usual();
   options.frames.style.marks = Marks::curves;
   expect_same("o.mp4", {"o.mp4"}, options);
 }
 
-TEST_F(PlannedFilm, ForEachEyeAndOfPicturesAndOfADisplayHasTheBytesOfOneRun) {
+TEST_F(PlannedFilmLong, ForEachEyeHasTheBytesOfOneRun) {
   expect_same("o_left.mp4", {"o_left.mp4", "o_right.mp4"}, usual());
+}
+
+TEST_F(PlannedFilm, OfPicturesAndOfADisplayHasTheBytesOfOneRun) {
   expect_same("o_%04d.png", {"o_0001.png", "o_0003.png", "o_0005.png"}, usual());
   RotoscopeFilmOptions options = usual();
   options.frames.display = FilmDisplay{{.views = 4, .width = 42, .height = 56}, QuiltLayout{2, 2}, {}};

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <zlib.h>
 
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -140,12 +141,15 @@ std::string sealed(std::span<const std::uint8_t> payload, std::uint32_t version 
   return {reinterpret_cast<const char*>(builder.GetBufferPointer()), builder.GetSize()};
 }
 
-TEST(PaintingFile, DrawsNothingWildFromAPayloadThatWasForged) {
+/// Changes each byte of payloads in some of the ways, one after the other, or in all.
+void expect_nothing_wild_of_forged_payloads(std::size_t ways_a_byte) {
+  constexpr std::array flips{0x01, 0x10, 0x80, 0xFF};
   int drawn = 0, refused = 0;
   for (int kind = 0; kind < kinds; ++kind) {
     const std::vector<std::uint8_t> good = payload_of(small(kind));
     for (std::size_t i = 0; i < good.size(); ++i) {
-      for (const int flip : {0x01, 0x10, 0x80, 0xFF}) {
+      for (std::size_t way = 0; way < ways_a_byte; ++way) {
+        const int flip = flips[(i + way) % flips.size()];
         std::vector<std::uint8_t> bad = good;
         bad[i] = static_cast<std::uint8_t>(bad[i] ^ flip);
         try {
@@ -163,6 +167,9 @@ TEST(PaintingFile, DrawsNothingWildFromAPayloadThatWasForged) {
   EXPECT_GT(drawn, 100);
   EXPECT_GT(refused, 100);
 }
+
+TEST(PaintingFile, DrawsNothingWildFromAPayloadThatWasForged) { expect_nothing_wild_of_forged_payloads(1); }
+TEST(PaintingFileLong, DrawsNothingWildFromAPayloadThatWasForgedInAnyWay) { expect_nothing_wild_of_forged_payloads(4); }
 
 StrokePainting& strokes(Painting& painting) { return std::get<StrokePainting>(painting.marks); }
 RegionPainting& regions(Painting& painting) { return std::get<RegionPainting>(painting.marks); }

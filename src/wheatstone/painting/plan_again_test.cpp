@@ -64,7 +64,7 @@ struct Retouched {
 TEST(PlanAgain, EqualsPlanningAnewAfterEachOfManyTouches) {
   Retouched picture("oil");
   EXPECT_EQ(picture.again(), picture.anew());
-  for (int i = 0; i < 6; ++i) {
+  for (int i = 0; i < 4; ++i) {
     for (int k = i % 2; k >= 0; --k) picture.touch();
     ASSERT_EQ(picture.again(), picture.anew()) << "after touch " << picture.touches.size();
   }
@@ -98,13 +98,13 @@ TEST(PlanAgain, GoesBackToTheFirstPaintingWhenTouchesAreUndone) {
 }
 
 TEST(PlanAgain, EqualsPlanningAnewForOtherPhotographsStylesAndSizes) {
-  Retouched picture("oil");
+  Retouched picture("oil", 400);
   picture.again();
   picture.style.fineness = 0.7f;
   EXPECT_EQ(picture.again(), picture.anew()) << "another fineness";
-  picture.still = make_synthetic_still({.width = 640, .height = 480, .seed = 2, .samples_a_side = 1});
+  picture.still = make_synthetic_still({.width = 400, .height = 300, .seed = 2, .samples_a_side = 1});
   EXPECT_EQ(picture.again(), picture.anew()) << "another photograph";
-  picture.still = make_synthetic_still({.width = 560, .height = 400, .samples_a_side = 1});
+  picture.still = make_synthetic_still({.width = 360, .height = 260, .samples_a_side = 1});
   EXPECT_EQ(picture.again(), picture.anew()) << "another size";
 }
 

@@ -73,14 +73,17 @@ TEST(ReadViews, OfAnMpoFollowTheNumbersThatThePicturesTell) {
   EXPECT_TRUE(is_like(file.views[1], red));
 }
 
-TEST(ReadViews, OfAnMpoCutAnywhereAreRefused) {
+void expect_cut_mpo_refused(std::size_t step) {
   const TemporaryFolder folder;
   const std::string bytes = two_colours_mpo();
-  for (std::size_t length = 0; length < bytes.size(); ++length) {
+  for (std::size_t length = 0; length < bytes.size(); length += step) {
     put_bytes(folder / "a.mpo", std::string_view(bytes).substr(0, length));
     expect_error(ErrorKind::bad_input, "a.mpo: ", [&] { read_views(folder / "a.mpo"); });
   }
 }
+
+TEST(ReadViews, OfAnMpoCutAnywhereAreRefused) { expect_cut_mpo_refused(5); }
+TEST(ReadViewsLong, OfAnMpoCutAtAnyByteAreRefused) { expect_cut_mpo_refused(1); }
 
 TEST(ReadViews, OfAnMpoWithOnePictureOrNoIndexAreRefused) {
   const TemporaryFolder folder;
