@@ -35,6 +35,8 @@ struct Photograph {
 struct PaintedContent {
   std::shared_ptr<const Painting> painting;
   std::shared_ptr<const Photograph> photograph;
+  std::shared_ptr<const Painting> as_read =
+      {};  ///< a painting that was read, without what a hand did; none: it is the same
   friend bool operator==(const PaintedContent&, const PaintedContent&) = default;
 };
 

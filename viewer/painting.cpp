@@ -16,6 +16,7 @@
 #include "wheatstone/error.h"
 #include "wheatstone/files/output_paths.h"
 #include "wheatstone/painting/paint.h"
+#include "wheatstone/painting/retouch_strokes.h"
 #include "wheatstone/stereo/geometry_from_disparity.h"
 #include "wheatstone/stereo/picture_sizes.h"
 
@@ -85,7 +86,7 @@ std::shared_ptr<const Photograph> made_ready(const std::shared_ptr<const Photogr
                                              std::span<const Touch> touches, const Progress& progress) {
   std::vector<Touch> of_depth;
   std::ranges::copy_if(touches, std::back_inserter(of_depth),
-                       [](const Touch& touch) { return touch.kind != Retouch::detail; });
+                       [](const Touch& touch) { return retouched_by(touch.kind) == Retouched::depth; });
   const bool wants_detail = reads_detail(style) && !photograph->detail;
   if (photograph->geometry && !wants_detail && of_depth == photograph->touches) return photograph;
   auto ready = std::make_shared<Photograph>(*photograph);
@@ -124,11 +125,15 @@ void paint_in_steps(const std::shared_ptr<const Photograph>& photograph, const S
   constexpr double very_large_px = 6e6;
   const bool keeps_fits = !touches.empty() && static_cast<double>(left.width()) * left.height() <= very_large_px;
   if (!keeps_fits) fits.clear();
-  if (fits.empty() && std::max(left.width(), left.height()) > 2 * coarse_px)
-    deliver({std::make_shared<const Painting>(coarse_painting(*known, style, detail, progress)), known});
+  if (fits.empty() && std::max(left.width(), left.height()) > 2 * coarse_px) {
+    Painting coarse = coarse_painting(*known, style, detail, progress);
+    retouch_strokes(touches, coarse);
+    deliver({std::make_shared<const Painting>(std::move(coarse)), known});
+  }
   const auto plan = [&](ViewRange views) {
     Painting painting = keeps_fits ? plan_again(known->pictures, *known->geometry, style, fits, progress, views, detail)
                                    : plan_painting(known->pictures, *known->geometry, style, progress, views, detail);
+    retouch_strokes(touches, painting);
     deliver({std::make_shared<const Painting>(std::move(painting)), known});
   };
   if (!fits.empty()) plan(ViewRange{});  // what the eyes see first, while the hand goes on

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -10,19 +11,31 @@
 #include "inputs.h"
 #include "wheatstone/error.h"
 #include "wheatstone/files/output_paths.h"
+#include "wheatstone/image/colour.h"
 #include "wheatstone/painting/paint.h"
+#include "wheatstone/painting/retouch_strokes.h"
 #include "wheatstone/pictures/disparity_file.h"
 #include "wheatstone/pictures/write_image.h"
 
 namespace wheatstone::viewer {
 namespace {
 
-/// A photograph is open whose depth is known, and its painting.
-bool can_retouch(const Viewer& viewer) {
+/// A painting is open, and its photograph, whose depth is known.
+bool can_retouch_depth(const Viewer& viewer) {
   const auto* const content = std::get_if<PaintedContent>(&viewer.session().opened.content);
   return content != nullptr && content->painting && content->photograph && content->photograph->geometry &&
          !viewer.session().film;
 }
+
+bool can_retouch_strokes(const Viewer& viewer) {
+  const auto* const content = std::get_if<PaintedContent>(&viewer.session().opened.content);
+  return content != nullptr && content->painting && has_strokes_to_retouch(*content->painting) &&
+         !viewer.session().film;
+}
+
+bool can_retouch(const Viewer& viewer) { return can_retouch_depth(viewer) || can_retouch_strokes(viewer); }
+
+bool is_of_strokes(RetouchTool tool) { return tool >= RetouchTool::paint; }
 
 void set_tool(Viewer& viewer, const Words& words) {
   const auto found = std::ranges::find(retouch_tool_names, words[0]);
@@ -38,7 +51,7 @@ Touch touch_of(const Session& session, const SeenPlace& at, float pressure) {
   const float strength = pressure * brush.strength;
   const float farthest = session.opened.depth ? session.opened.depth->farthest_px : at.disparity_px;
   const float nearest = session.opened.depth ? session.opened.depth->nearest_px : at.disparity_px;
-  Touch touch{.x = at.x, .y = at.y, .radius_px = brush.radius_px};
+  Touch touch{.x = at.x, .y = at.y, .radius_px = brush.radius_px, .colour = brush.colour};
   const auto is = [&](Retouch kind, float amount) {
     touch.kind = kind;
     touch.amount = amount;
@@ -71,8 +84,38 @@ Touch touch_of(const Session& session, const SeenPlace& at, float pressure) {
     case RetouchTool::coarser:
       is(Retouch::detail, -detail_levels * strength);
       break;
+    case RetouchTool::paint:
+      is(Retouch::paint, 0);
+      break;
+    case RetouchTool::erase:
+      is(Retouch::erase, 0);
+      break;
+    case RetouchTool::recolour:
+      is(Retouch::recolour, 0);
+      break;
+    case RetouchTool::pick:
+      break;
   }
   return touch;
+}
+
+/// Takes the colour of the brush from the picture.
+void pick_colour(Viewer& viewer, double x, double y) {
+  const Frame* const frame = viewer.frame();
+  const int column = static_cast<int>(std::floor(x)), row = static_cast<int>(std::floor(y));
+  if (frame == nullptr || !frame->picture.contains(column, row)) return;
+  viewer.session().retouch.colour = frame->picture(column, row);
+}
+
+void set_colour(Viewer& viewer, const Words& words) {
+  const std::optional<Rgb8> colour = colour_of_code(words[0]);
+  if (!colour) throw Error(ErrorKind::wrong_usage, fmt::format("'{}' is no colour, expected one as 3366FF", words[0]));
+  viewer.session().retouch.colour = *colour;
+}
+
+std::string colour_now(const Viewer& viewer) {
+  const Rgb8 colour = viewer.session().retouch.colour;
+  return fmt::format("{:02X}{:02X}{:02X}", colour.r, colour.g, colour.b);
 }
 
 /// At X Y, with the PRESSURE of a pen. A stroke of the hand begins, or goes on; one that begins beside the picture
@@ -83,9 +126,13 @@ void do_touch(Viewer& viewer, const Words& words, bool goes_on) {
   if (!goes_on) begun_at_px.reset();
   const double x = number_of(words[0]), y = number_of(words[1]);
   const float pressure = words.size() > 2 ? static_cast<float>(number_of(words[2], 0, 1)) : 1;
-  if (!can_retouch(viewer))
+  const RetouchTool tool = session.retouch.tool;
+  if (tool == RetouchTool::pick) return pick_colour(viewer, x, y);
+  if (is_of_strokes(tool) && !can_retouch_strokes(viewer))
+    throw Error(ErrorKind::wrong_usage, "there is no painting of strokes to retouch");
+  if (!is_of_strokes(tool) && !can_retouch_depth(viewer))
     throw Error(ErrorKind::wrong_usage, "there is no photograph to retouch, or it is not painted yet");
-  const std::optional<SeenPlace> at = seen_in_left(viewer, x, y);
+  const std::optional<SeenPlace> at = is_of_strokes(tool) ? seen_at(viewer, x, y) : seen_in_left(viewer, x, y);
   if (!at) return viewer.tell("the depth is not known there");
   const bool begins = !begun_at_px;
   if (begins) begun_at_px = at->disparity_px;
@@ -110,7 +157,7 @@ void write_retouched(const std::filesystem::path& path, const std::array<std::fi
 }
 
 void save_disparity(Viewer& viewer, const Words& words) {
-  if (!can_retouch(viewer)) throw Error(ErrorKind::wrong_usage, "there is no photograph whose depth is known");
+  if (!can_retouch_depth(viewer)) throw Error(ErrorKind::wrong_usage, "there is no photograph whose depth is known");
   const std::shared_ptr<const Photograph> photograph =
       std::get<PaintedContent>(viewer.session().opened.content).photograph;
   const std::filesystem::path path = words[0];
@@ -138,9 +185,9 @@ void save_disparity(Viewer& viewer, const Words& words) {
 constexpr Command retouch_table[] = {
     // name, arguments, menu, text, keys
     {"retouch",
-     "off|nearer|farther|smooth|flatten|fill-far|fill-near|finer|coarser",
+     "off|nearer|farther|smooth|flatten|fill-far|fill-near|finer|coarser|paint|erase|recolour|pick",
      "Retouch",
-     "Brush: the pointer changes depth, or where the painting is fine",
+     "Brush: the pointer changes depth, where the painting is fine, or its strokes",
      "",
      set_tool,
      {.now =
@@ -167,6 +214,13 @@ constexpr Command retouch_table[] = {
      {.now = [](const Viewer& v) { return fmt::format("{}", v.session().retouch.strength); },
       .range = {0, 10, 0.1},
       .applies = can_retouch}},
+    {"brush-colour",
+     "COLOUR",
+     "Retouch",
+     "Colour of the brush, as 3366FF",
+     "",
+     set_colour,
+     {.now = colour_now, .applies = can_retouch_strokes}},
     {"touch",
      "X Y [PRESSURE]",
      "Retouch",
@@ -184,14 +238,14 @@ constexpr Command retouch_table[] = {
     {"untouched",
      "",
      "Retouch",
-     "Depth and detail as they were found",
+     "Depth, detail and strokes as they were found",
      "",
      [](Viewer& v, const Words&) {
        state_of(v).touches.clear();
        v.paint();
      },
      {.applies = [](const Viewer& v) { return !v.session().state.touches.empty(); }, .begins_group = true}},
-    {"save-disparity", "FILE", "Retouch", "Save the disparity…", "", save_disparity, {.applies = can_retouch}},
+    {"save-disparity", "FILE", "Retouch", "Save the disparity…", "", save_disparity, {.applies = can_retouch_depth}},
 };
 
 }  // namespace

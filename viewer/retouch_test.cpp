@@ -1,6 +1,7 @@
 // Depth and detail that are changed by hand.
 
 #include <fmt/format.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,6 +16,7 @@
 #include "wheatstone/app/paint_photograph.h"
 #include "wheatstone/marks/painting_file.h"
 #include "wheatstone/painting/paint.h"
+#include "wheatstone/painting/retouch_strokes.h"
 #include "wheatstone/pictures/disparity_file.h"
 #include "wheatstone/pictures/read_image.h"
 #include "wheatstone/pictures/write_image.h"
@@ -94,9 +96,60 @@ TEST_F(OpenPhotograph, EqualsPlanningAnewWithTheSameMapHoweverManyTouches) {
   Image<std::uint8_t> detail = *content().photograph->detail;
   if (detail.empty()) detail = Image<std::uint8_t>(240, 160, even_detail);
   retouch_detail(viewer.session().state.touches, detail);
-  const Painting anew =
+  Painting anew =
       plan_painting(pair(), geometry_from_left(map), viewer.session().state.style, {}, widest_views, detail);
+  retouch_strokes(viewer.session().state.touches, anew);
   EXPECT_EQ(*content().painting, anew);
+}
+
+TEST_F(OpenPhotograph, TellsWhenAHandPushesItBeyondComfort) {
+  run("separation 0.2");
+  run("retouch nearer");
+  run("brush-strength 3");
+  run("touch 120 80");
+  EXPECT_THAT(viewer.session().message, testing::Not(testing::HasSubstr("comfortable")));
+  run("brush-radius 60");
+  run("brush-strength 100");
+  run("touch 120 80");
+  EXPECT_THAT(viewer.session().message, testing::HasSubstr("more than the 3 % that are comfortable"));
+}
+
+TEST_F(OpenPhotograph, IsPaintedOnWithAColourThatIsPickedFromIt) {
+  const std::size_t count = stroke_count(*content().painting);
+  run("retouch pick");
+  run("touch 120 80");
+  const Rgb8 picked = viewer.session().retouch.colour;
+  EXPECT_EQ(picked, viewer.frame()->picture(120, 80));
+  EXPECT_TRUE(viewer.session().state.touches.empty());
+  run("retouch paint");
+  run("touch 40 40");
+  run("touch-on 60 44");
+  run("touch-on 80 40");
+  EXPECT_EQ(stroke_count(*content().painting), count + 1);
+  EXPECT_EQ(layers_of(*content().painting).back().strokes.back().colour, picked);
+  run("undo");
+  EXPECT_EQ(stroke_count(*content().painting), count);
+}
+
+TEST_F(OpenPhotograph, ItsStrokesAreKeptWithThePaintingThatIsSavedAndReopened) {
+  run("brush-colour #10E020");
+  run("retouch paint");
+  run("touch 40 40");
+  run("touch-on 80 40");
+  run("retouch nearer");
+  run("touch 150 90");
+  run("save-painting " + (folder / "by_hand.wst").string());
+  viewer.finish_saving();
+  const Painting saved = read_painting(folder / "by_hand.wst");
+  EXPECT_EQ(saved, *content().painting);
+  run("open " + (folder / "by_hand.wst").string());
+  EXPECT_EQ(*content().painting, saved);
+  run("retouch erase");
+  run("touch 60 40");
+  EXPECT_LT(stroke_count(*content().painting), stroke_count(saved));
+  EXPECT_THROW(run("retouch nearer\ntouch 60 40"), Error);
+  run("undo");
+  EXPECT_EQ(*content().painting, saved);
 }
 
 TEST_F(OpenPhotograph, ComesBackByUndoAStrokeOfTheHandAtATime) {

@@ -45,15 +45,31 @@ struct GazeGains {
 constexpr double click_easing_s = 0.08;  ///< after which a third of the way is left
 
 /// What the pointer does to the maps that a photograph is painted with.
-enum class RetouchTool { off, nearer, farther, smooth, flatten, fill_far, fill_near, finer, coarser };
+enum class RetouchTool {
+  off,
+  nearer,
+  farther,
+  smooth,
+  flatten,
+  fill_far,
+  fill_near,
+  finer,
+  coarser,
+  paint,
+  erase,
+  recolour,
+  pick
+};
 
-inline constexpr std::array<std::string_view, 9> retouch_tool_names{
-    "off", "nearer", "farther", "smooth", "flatten", "fill-far", "fill-near", "finer", "coarser"};  ///< in their order
+inline constexpr std::array<std::string_view, 13> retouch_tool_names{
+    "off",   "nearer",  "farther", "smooth", "flatten",  "fill-far", "fill-near",
+    "finer", "coarser", "paint",   "erase",  "recolour", "pick"};  ///< in their order
 
 struct RetouchBrush {
   RetouchTool tool = RetouchTool::off;
   float radius_px = 30;                   ///< in pixels of the picture
   float strength = 1;                     ///< of a touch: pixels of disparity, or 40 levels of detail
+  Rgb8 colour{200, 60, 40};               ///< of strokes
   std::optional<float> begun_at_px = {};  ///< the disparity where the stroke of the hand began
 };
 

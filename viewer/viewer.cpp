@@ -18,6 +18,7 @@
 #include "wheatstone/depth/comfort.h"
 #include "wheatstone/error.h"
 #include "wheatstone/files/whole_file.h"
+#include "wheatstone/painting/retouch_strokes.h"
 #include "wheatstone/pictures/write_image.h"
 #include "wheatstone/synthetic/synthetic_still.h"
 
@@ -178,8 +179,9 @@ ShowFirst Viewer::showing(std::uint64_t job) {
 }
 
 void Viewer::paint() {
-  const auto* const content = std::get_if<PaintedContent>(&session_.opened.content);
-  if (content == nullptr || !content->photograph || !session_.opened.is_ready) return;
+  auto* const content = std::get_if<PaintedContent>(&session_.opened.content);
+  if (content == nullptr || !session_.opened.is_ready) return;
+  if (!content->photograph) return retouch_what_was_read(*content);
   if (session_.film && (session_.film->plays || !session_.film->paints)) return;
   session_.opening = Activity{"painting", 0};
   const std::uint64_t job = ++job_;
@@ -199,6 +201,14 @@ void Viewer::paint() {
       post_failure(error, job);
     }
   });
+}
+
+void Viewer::retouch_what_was_read(PaintedContent& content) const {
+  if (!content.as_read && session_.state.touches.empty()) return;
+  if (!content.as_read) content.as_read = content.painting;
+  auto painting = std::make_shared<Painting>(*content.as_read);
+  retouch_strokes(session_.state.touches, *painting);
+  content.painting = std::move(painting);
 }
 
 Progress Viewer::progress_of(std::uint64_t job, const std::stop_token& stop) {
@@ -264,6 +274,20 @@ void Viewer::take_painted(const PaintedContent& content, const std::optional<Dep
   if (content.painting) open.painting = content.painting;
   const bool is_placed = session_.film && std::exchange(session_.film->is_placed, true);
   if (!depth_was_known && !is_placed) show_comfortably();
+  if (!session_.state.touches.empty()) warn_of_depth();
+}
+
+void Viewer::warn_of_depth() {
+  const std::optional<DepthEnds>& depth = session_.opened.depth;
+  const auto width = static_cast<float>(size_of(session_.opened.content).width);
+  if (!depth || !session_.state.depth_regions.empty() || width <= 0) return;
+  const float share = session_.state.adjustment.separation * (depth->nearest_px - depth->farthest_px) / width;
+  constexpr float rounding = 1.01f;
+  if (share > rounding * comfortable_parallax_share)
+    tell(fmt::format(
+        "the depth is {:.1f} % of the width, more than the {:.0f} % that are comfortable; undo, or lower the "
+        "separation",
+        100 * share, 100 * comfortable_parallax_share));
 }
 
 void Viewer::show_comfortably() {

@@ -135,6 +135,10 @@ class Viewer {
   void forget_touches();
   /// Shows what was opened in the mode of its kind.
   void take_usual_mode();
+  /// Tells where depth that a hand has changed is more than is comfortable.
+  void warn_of_depth();
+  /// Gives a painting that has no photograph the strokes of the hand.
+  void retouch_what_was_read(PaintedContent& content) const;
   void take_painted(const PaintedContent& content, const std::optional<DepthEnds>& depth);
 
   Progress progress_of(std::uint64_t job, const std::stop_token& stop);

@@ -91,6 +91,9 @@ void retouch_disparity(std::span<const Touch> touches, ImageView<const Rgb8> pic
         fill(touch, picture, disparity);
         break;
       case Retouch::detail:
+      case Retouch::paint:
+      case Retouch::erase:
+      case Retouch::recolour:
         break;
     }
   }

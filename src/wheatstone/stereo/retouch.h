@@ -8,14 +8,24 @@
 
 namespace wheatstone {
 
-/// What a touch by hand does to the disparity of the left view, or to the map that says how finely places are painted.
+/// What a touch by hand does: to the disparity of the left view, to the map that says how finely places are painted, or
+/// to the strokes that are painted.
 enum class Retouch {
-  shift,   ///< adds `amount` pixels of disparity
-  smooth,  ///< takes the mean of the surroundings, over `amount` pixels
-  set,     ///< gives the disparity `amount`
-  fill,    ///< gives the disparity `amount` to all that is connected in like colours, up to its rim
-  detail,  ///< adds `amount` levels to the detail map
+  shift,     ///< adds `amount` pixels of disparity
+  smooth,    ///< takes the mean of the surroundings, over `amount` pixels
+  set,       ///< gives the disparity `amount`
+  fill,      ///< gives the disparity `amount` to all that is connected in like colours, up to its rim
+  detail,    ///< adds `amount` levels to the detail map
+  paint,     ///< a stroke through this touch and those that go on, of `colour`
+  erase,     ///< takes strokes away
+  recolour,  ///< gives strokes `colour`
 };
+
+enum class Retouched { depth, detail, strokes };
+constexpr Retouched retouched_by(Retouch kind) {
+  if (kind == Retouch::detail) return Retouched::detail;
+  return kind < Retouch::detail ? Retouched::depth : Retouched::strokes;
+}
 
 /// One touch of a round brush: whole within half its radius, less towards its rim.
 struct Touch {
@@ -23,11 +33,12 @@ struct Touch {
   float x = 0, y = 0;    ///< of its middle, in pixels of the left view
   float radius_px = 20;  ///< above 0; a fill has none
   float amount = 0;      ///< as the kind says
+  Rgb8 colour = {};      ///< of strokes
   bool goes_on = false;  ///< it belongs to the same stroke of the hand as the touch before it
   friend bool operator==(const Touch&, const Touch&) = default;
 };
 
-/// Does all touches but those of detail to the left view's disparity, in their order. `picture` is the left
+/// Does the touches of depth to the left view's disparity, in their order. `picture` is the left
 /// photograph, of the same size, in which fills find what is connected: neighbours that differ by at most 6 levels a
 /// channel from each other, and by 40 from where the fill begins; gaps of up to 4 pixels, as of a wire, are filled,
 /// too. Every disparity is known. Touches beside the picture do nothing. `progress` is called before each touch; what
