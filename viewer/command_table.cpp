@@ -139,6 +139,14 @@ double number_of(const std::string& word, double least, double most) {
   return number;
 }
 
+std::size_t place_among(std::span<const std::string_view> names, const std::string& word, std::string_view what) {
+  const auto found = std::ranges::find(names, word);
+  if (found == names.end())
+    throw Error(ErrorKind::wrong_usage,
+                fmt::format("'{}' is no {}, expected one of: {}", word, what, fmt::join(names, ", ")));
+  return static_cast<std::size_t>(found - names.begin());
+}
+
 bool switch_of(const std::string& word) {
   if (word == "on") return true;
   if (word == "off") return false;

@@ -20,6 +20,8 @@ Words words_of(std::string_view line);
 double number_of(const std::string& word);
 double number_of(const std::string& word, double least, double most);
 bool switch_of(const std::string& word);  ///< "on" or "off"
+/// The place of a word among names; `what` is what they name. Throws Error{wrong_usage}.
+std::size_t place_among(std::span<const std::string_view> names, const std::string& word, std::string_view what);
 
 /// Something that a command's argument can be.
 struct Choice {

@@ -76,11 +76,7 @@ void set_parameter(Viewer& viewer, const Words& words) {
 }
 
 void compare(Viewer& viewer, const Words& words) {
-  const auto found = std::ranges::find(comparison_names, words[0]);
-  if (found == comparison_names.end())
-    throw Error(ErrorKind::wrong_usage,
-                fmt::format("'{}' cannot be compared, expected painting, photograph, split or depth", words[0]));
-  state_of(viewer).comparison = static_cast<Comparison>(found - comparison_names.begin());
+  state_of(viewer).comparison = static_cast<Comparison>(place_among(comparison_names, words[0], "comparison"));
 }
 
 std::vector<Choice> style_choices(const Viewer& /*viewer*/) {
@@ -292,11 +288,7 @@ constexpr Command depth_table[] = {
 };
 
 void set_panel(Viewer& viewer, const Words& words) {
-  const auto found = std::ranges::find(panel_names, words[0]);
-  if (found == panel_names.end())
-    throw Error(ErrorKind::wrong_usage,
-                fmt::format("'{}' is no panel, expected style, depth, particles or off", words[0]));
-  viewer.session().panel = static_cast<Panel>(found - panel_names.begin());
+  viewer.session().panel = static_cast<Panel>(place_among(panel_names, words[0], "panel"));
 }
 
 void toggle(Viewer& viewer, Panel panel) {

@@ -38,11 +38,7 @@ bool can_retouch(const Viewer& viewer) { return can_retouch_depth(viewer) || can
 bool is_of_strokes(RetouchTool tool) { return tool >= RetouchTool::paint; }
 
 void set_tool(Viewer& viewer, const Words& words) {
-  const auto found = std::ranges::find(retouch_tool_names, words[0]);
-  if (found == retouch_tool_names.end())
-    throw Error(ErrorKind::wrong_usage,
-                fmt::format("'{}' is no tool, expected one of {}", words[0], fmt::join(retouch_tool_names, ", ")));
-  viewer.session().retouch.tool = static_cast<RetouchTool>(found - retouch_tool_names.begin());
+  viewer.session().retouch.tool = static_cast<RetouchTool>(place_among(retouch_tool_names, words[0], "tool"));
 }
 
 /// The touch that the chosen tool does at a place of the left view, where that disparity lies.

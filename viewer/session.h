@@ -78,6 +78,11 @@ enum class Panel { off, style, depth, particles };
 
 inline constexpr std::array<std::string_view, 4> panel_names{"off", "style", "depth", "particles"};  ///< in their order
 
+/// The colours of the window.
+enum class Theme { desktop, light, dark };
+
+inline constexpr std::array<std::string_view, 3> theme_names{"desktop", "light", "dark"};  ///< in their order
+
 /// The output modes in which contents of two views or more are opened: what was last chosen for their kind. A picture
 /// of one view is shown as it is.
 struct UsualModes {
@@ -131,6 +136,7 @@ struct Session {
   int screen = 0;       ///< that is filled, from 1; 0: the display's own, or the window's
   bool stereo = false;  ///< the graphics card shows a picture for each eye in turn
   Panel panel = Panel::off;
+  Theme theme = Theme::desktop;
   std::filesystem::path folder;  ///< where dialogs for files begin; empty: where the program does
   bool ends = false;
   int exit_code = 0;

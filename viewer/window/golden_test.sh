@@ -24,20 +24,24 @@ printf '%s\n' 'x y z' '0 0 0' '1 0 0' '0 1 0' '0 0 1' '1 1 1' >points.txt
 mapfile -t modes < <(sed 's/.*expected one of: //; s/, /\n/g' names.txt | grep --invert-match --line-regexp page-flip)
 [[ ${#modes[@]} -gt 20 ]] || fail "the modes are not known: $(cat names.txt)"
 {
-  printf '%s\n' 'resize 640 480' wait 'screenshot start.png' 'resize 64 132' 'display barrier-2' "open $(echo pair_qs*.png)" wait
+  printf '%s\n' 'resize 640 480' wait 'screenshot start.png' 'theme dark' wait 'screenshot start-dark.png' 'theme light' 'resize 64 132' 'display barrier-2' "open $(echo pair_qs*.png)" wait
   for mode in "${modes[@]}"; do
     printf '%s\n' "mode $mode" wait "save-picture $mode.mode.png"
   done
   printf '%s\n' 'resize 640 480' 'mode red-cyan' information wait 'screenshot information.png' information \
     'panel style' wait 'screenshot style.png' 'panel depth' 'depth-mapping 0:-40,0.3:-20,0.6:20,1:50' wait \
-    'screenshot depth.png' 'panel off' 'open painted/painting.wst' wait 'layers-apart 40' wait 'screenshot layers.png' \
+    'screenshot depth.png' 'theme dark' wait 'screenshot depth-dark.png' 'panel style' wait 'screenshot style-dark.png' \
+    'theme light' 'panel off' 'open painted/painting.wst' wait 'layers-apart 40' wait 'screenshot layers.png' \
     'layers-apart off' 'open points.txt' wait 'panel particles' wait 'screenshot particles.png'
 } >tour.txt
 "$view" --script tour.txt
 oiiotool "${modes[@]/%/.mode.png}" --mosaic 6x$(((${#modes[@]} + 5) / 6)) -o modes.png
 # Text is drawn a little differently by other fonts: of panels, a reduced picture is compared.
-for panel in start information style depth layers particles; do oiiotool "$panel.png" --resize 160x0 -o "$panel-reduced.png"; done
-panels=(start-reduced information-reduced style-reduced depth-reduced layers-reduced particles-reduced)
+panels=()
+for panel in start start-dark information style style-dark depth depth-dark layers particles; do
+  oiiotool "$panel.png" --resize 160x0 -o "$panel-reduced.png"
+  panels+=("$panel-reduced")
+done
 
 if [[ $keep == --keep ]]; then
   for picture in modes "${panels[@]}"; do cp "$picture.png" "$kept/$picture.png"; done

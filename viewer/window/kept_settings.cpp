@@ -17,7 +17,8 @@ namespace wheatstone::viewer {
 namespace {
 
 constexpr auto recent_key = "recent", mode_key = "mode", device_key = "look-with", panel_key = "panel",
-               style_key = "style", folder_key = "folder", display_key = "display", size_key = "size";
+               style_key = "style", folder_key = "folder", display_key = "display", theme_key = "theme",
+               size_key = "size";
 constexpr QChar between_eyes = '\n';
 
 constexpr auto organisation = "Wheatstone", program_name = "wheatstone-view";
@@ -77,7 +78,7 @@ void KeptSettings::fill_menu(QMenu& menu) {
 
 void KeptSettings::restore(bool with_size) {
   const QSettings kept(organisation, program_name);
-  for (const char* key : {device_key, display_key, panel_key, style_key}) {
+  for (const char* key : {device_key, display_key, panel_key, style_key, theme_key}) {
     const std::string name = kept.value(key).toString().toStdString();
     if (name.empty()) continue;
     try {
@@ -104,6 +105,7 @@ void KeptSettings::keep() {
     kept.setValue(mode_key, QString::fromStdString(session.usual_modes.pictures));
   kept.setValue(device_key, QString::fromStdString(session.device));
   kept.setValue(style_key, QString::fromStdString(session.state.style.name));
+  kept.setValue(theme_key, QString::fromUtf8(theme_names[static_cast<std::size_t>(session.theme)]));
   kept.setValue(folder_key, QString::fromStdString(session.folder.string()));
   kept.setValue(panel_key, QString::fromUtf8(panel_names[static_cast<std::size_t>(session.panel)]));
   kept.setValue(display_key, QString::fromStdString(session.state.display));

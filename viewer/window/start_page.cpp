@@ -1,6 +1,7 @@
 #include "start_page.h"
 
 #include <QButtonGroup>
+#include <QEvent>
 #include <QGridLayout>
 #include <QHBoxLayout>
 #include <QLabel>
@@ -63,20 +64,33 @@ QWidget* StartPage::make_left_column() {
   about->setWordWrap(true);
   layout->addWidget(about);
   layout->addSpacing(8);
-  auto* const open = new QPushButton(tool_icon("open", palette()), "  Open…", column);
-  open->setIconSize({24, 24});
-  open->setDefault(true);
-  QObject::connect(open, &QPushButton::clicked, this, [this] { ask_to_open_(); });
-  layout->addWidget(open);
+  open_ = new QPushButton("  Open…", column);
+  open_->setIconSize({24, 24});
+  open_->setDefault(true);
+  QObject::connect(open_, &QPushButton::clicked, this, [this] { ask_to_open_(); });
+  layout->addWidget(open_);
   auto* const example = new QPushButton("Show an example", column);
   QObject::connect(example, &QPushButton::clicked, this, [this] { do_command_("open-example", {}); });
   layout->addWidget(example);
-  auto* const drop = new QLabel(
+  drop_ = new QLabel(
       "Drop files here:\na painting, a stereo photograph,\nits two pictures, a film,\nslices or particles", column);
-  drop->setAlignment(Qt::AlignCenter);
-  drop->setStyleSheet("border: 2px dashed palette(mid); border-radius: 8px; padding: 10px");
-  layout->addWidget(drop, 1);
+  drop_->setAlignment(Qt::AlignCenter);
+  layout->addWidget(drop_, 1);
+  take_colours();
   return column;
+}
+
+void StartPage::take_colours() {
+  open_->setIcon(tool_icon("open", palette()));
+  // Set anew, since a style sheet takes the palette's colours once.
+  drop_->setStyleSheet({});
+  drop_->setStyleSheet(
+      "border: 2px dashed palette(placeholder-text); border-radius: 8px; padding: 10px; color: palette(window-text)");
+}
+
+void StartPage::changeEvent(QEvent* event) {
+  if (event->type() == QEvent::PaletteChange && drop_ != nullptr) take_colours();
+  QWidget::changeEvent(event);
 }
 
 QWidget* StartPage::make_recent() {

@@ -9,6 +9,7 @@
 
 class QButtonGroup;
 class QLabel;
+class QPushButton;
 class QListWidget;
 
 namespace wheatstone::viewer {
@@ -26,11 +27,15 @@ class StartPage final : public QWidget {
   QWidget* make_left_column();
   QWidget* make_recent();
   QWidget* make_devices();
+  /// Of the theme.
+  void take_colours();
+  void changeEvent(QEvent* event) override;
 
   DoCommand do_command_;
   std::function<void()> ask_to_open_;
   QListWidget* recent_ = nullptr;
-  QLabel* no_recent_ = nullptr;
+  QLabel *no_recent_ = nullptr, *drop_ = nullptr;
+  QPushButton* open_ = nullptr;
   QButtonGroup* devices_ = nullptr;
   std::vector<Item> shown_;
   NewestJob thumbnails_;  ///< last: it ends first

@@ -18,11 +18,13 @@
 #include <QStackedWidget>
 #include <QStatusBar>
 #include <cmath>
+#include <utility>
 
 #include "help_page.h"
 #include "information.h"
 #include "picture_surface.h"
 #include "save_dialog.h"
+#include "theme.h"
 #include "viewer/depth_seen.h"
 #include "viewer/particle_scene.h"
 #include "wheatstone/error.h"
@@ -199,6 +201,8 @@ void Window::refresh() {
 
 void Window::show_session() {
   const Session& session = viewer_.session();
+  if (std::exchange(shown_theme_, session.theme) != session.theme)
+    QApplication::setPalette(palette_of(session.theme, desktop_palette_));
   const Item* const item = open_item(session);
   setWindowTitle(item == nullptr ? QString("Wheatstone")
                                  : QString::fromStdString(item->front().filename().string()) + " – Wheatstone");

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <QApplication>
 #include <QMainWindow>
+#include <QPalette>
 #include <QPointF>
 #include <QTimer>
 #include <filesystem>
@@ -113,6 +115,8 @@ class Window final : public QMainWindow {
   QPointF pressed_at_, dragged_to_, pointer_;
   bool is_pressed_ = false, is_dragged_ = false, pans_ = false;
   std::uint64_t shown_frame_ = 0;
+  Theme shown_theme_ = Theme::desktop;
+  const QPalette desktop_palette_ = QApplication::palette();
 
   Viewer viewer_;  ///< last: its threads end before what they wake
 };
