@@ -22,11 +22,9 @@
 #include "wheatstone/app/eyes_in_film.h"
 #include "wheatstone/app/slice_film.h"
 #include "wheatstone/depth/display_presets.h"
-#include "wheatstone/display/arrange.h"
 #include "wheatstone/display/print_frame.h"
 #include "wheatstone/error.h"
 #include "wheatstone/files/output_paths.h"
-#include "wheatstone/matching/match.h"
 #include "wheatstone/photograph/find_layout.h"
 #include "wheatstone/photograph/photograph_notes.h"
 #include "wheatstone/pictures/write_image.h"
@@ -39,9 +37,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Strips of a floating window: as they are typed, or none, which is "auto".
-using TypedWindow = std::optional<FloatingWindow>;
-
 struct PackArguments {
   Given given;
   FolderArguments walk;  ///< of a folder of photographs
@@ -52,48 +47,9 @@ struct PackArguments {
   SliceFilmArguments planes;  ///< of a painting
   std::string output;
   float shift_px = 0;
-  int max_size = 0;                            ///< longer side of what is matched; 0: as large as it is
-  std::optional<TypedWindow> floating_window;  ///< none: there is none
+  int max_size = 0;  ///< longer side of what is matched; 0: as large as it is
   FilmWriterOptions film;
 };
-
-/// The strips that are typed, or those that the matched views need.
-FloatingWindow window_for(const StereoPair& pair, const TypedWindow& typed, const Session& session) {
-  if (!typed) {
-    const std::optional<MatchedPair> matched = match_if_any(pair, {}, session.progress);
-    const FloatingWindow window = matched ? floating_window_for(matched->geometry) : FloatingWindow{};
-    remark(session, fmt::format("floating window: {} pixels at the left edge, {} at the right", window.left_px,
-                                window.right_px));
-    return window;
-  }
-  const int width = pair.left.width();
-  if (typed->left_px + typed->right_px >= width)
-    throw Error(ErrorKind::wrong_usage, fmt::format("--floating-window: is '{},{}', which leaves nothing of {} pixels",
-                                                    typed->left_px, typed->right_px, width));
-  return *typed;
-}
-
-/// The views of which the packing needs all: a part of each, shifted, and with a window and a frame where these are
-/// wanted.
-std::vector<Image<Rgb8>> adjusted(std::vector<Image<Rgb8>> views, const PackArguments& arguments,
-                                  const PrintFrame& frame, const Session& session) {
-  if (frame.crop)
-    for (Image<Rgb8>& view : views) view = cropped(view, *frame.crop);
-  if (arguments.shift_px != 0) views = shifted_views(std::move(views), arguments.shift_px);
-  if (arguments.floating_window) {
-    if (views.size() != 2)
-      throw Error(ErrorKind::wrong_usage,
-                  fmt::format("--floating-window: is for two views, but there are {}", views.size()));
-    StereoPair pair{std::move(views[0]), std::move(views[1])};
-    const FloatingWindow window = window_for(pair, *arguments.floating_window, session);
-    put_floating_window(pair, window.left_px, window.right_px);
-    views[0] = std::move(pair.left);
-    views[1] = std::move(pair.right);
-  }
-  if (frame.border || !frame.caption.empty())
-    for (Image<Rgb8>& view : views) view = with_border_and_caption(view, frame);
-  return views;
-}
 
 /// What to read, and how. A graphics processor that draws the views of a painting puts them into one picture, too,
 /// where nothing is done to them before.
@@ -101,7 +57,7 @@ ViewsArguments input_of(const PackArguments& arguments, const Packing& packing, 
   ViewsArguments input = arguments.input;
   settle_device(input.device, session);
   const int views = packing.format->views;
-  const bool untouched = arguments.shift_px == 0 && !arguments.floating_window && !input.swap &&
+  const bool untouched = arguments.shift_px == 0 && !arguments.print.floating_window && !input.swap &&
                          !has_print_frame(arguments.print.frame) && arguments.print.caption.empty() &&
                          !arguments.given("--framing") && (views == 0 || input.views == 0 || input.views == views);
   if (input.device != Device::processor && packing.format->composition && untouched)
@@ -157,7 +113,7 @@ PhotographResult pack_one(const PackArguments& arguments, const Session& session
   if (arguments.given("--framing") && !arguments.packing.display.empty() && !are_made) reframe(read.views, arguments);
   PackArguments rest = arguments;
   if (are_made && read.views.size() != 2) rest.shift_px = 0;  // it is done
-  const std::vector<Image<Rgb8>> views = adjusted(std::move(read.views), rest, frame, session);
+  const std::vector<Image<Rgb8>> views = put_in_frame(std::move(read.views), rest.print, frame, rest.shift_px, session);
   report(session.progress, "packing", 0);
   const std::string written =
       write_packed({packing, arguments.packing, views, caption, read.composed, output, session});
@@ -222,8 +178,8 @@ Report pack_slice_film(const PackArguments& arguments, const Session& session) {
     if (arguments.given("--framing") && !arguments.packing.display.empty()) reframe(read.views, arguments);
     Image<Rgb8> composed = std::move(read.composed);
     if (composed.empty())
-      composed =
-          compose(adjusted(std::move(read.views), arguments, frame, session), packing.format->composition(packing));
+      composed = compose(put_in_frame(std::move(read.views), arguments.print, frame, arguments.shift_px, session),
+                         packing.format->composition(packing));
     frame_size = {composed.width(), composed.height()};
     return composed;
   };
@@ -300,11 +256,6 @@ Report run_pack(const PackArguments& arguments, const Session& session) {
 
 Rows pack_rows(PackArguments& a) {
   a.input.into_one_file = [&a] { return fs::path(a.output).has_extension(); };
-  const auto parse_strips = [](const std::string& option, const std::string& words) -> TypedWindow {
-    if (words == "auto") return std::nullopt;
-    const std::vector<int> strips = parse_integers(option, words, {',', 2, {0, 65535}, "LEFT,RIGHT or auto"});
-    return FloatingWindow{strips[0], strips[1]};
-  };
   const auto are_made = [&a] { return makes_views(a.input, find_packing(a.packing, a.output), a.packing, a.depth); };
   Row max_size = max_size_row(
       a.max_size, {[are_made, unless = unless_matched(a.packing, a.output)] { return are_made() ? "" : unless(); }});
@@ -319,7 +270,7 @@ Rows pack_rows(PackArguments& a) {
   const Reason no_painting = unless_painting(a.input);
   const auto is_film_of_planes = [&a] { return makes_slice_film(a.planes); };
   const Reason strips_vary =
-      when([&a] { return makes_slice_film(a.planes) && a.floating_window && !*a.floating_window; },
+      when([&a] { return makes_slice_film(a.planes) && a.print.floating_window && !*a.print.floating_window; },
            "as 'auto' on a film of planes; it works with widths");
   Rows walk = folder_rows(a.walk, on_folder, "packed", "; {to}, the format");
   walk.push_back(contact_sheet_row(a.walk, on_folder));
@@ -333,17 +284,12 @@ Rows pack_rows(PackArguments& a) {
             packing_rows(a.packing, a.output),
             {row("--zero-parallax,--shift", number(a.shift_px, {-65535, 65535}),
                  "Disparity in pixels, from each view to the next, that lies on the screen plane"),
-             max_size,
-             row("--floating-window", parsed(a.floating_window, parse_strips),
-                 "Width LEFT,RIGHT in pixels of the black strips at the left edge of the left view and the right "
-                 "edge of the right view; auto: as wide as needed for the frame to cut nothing before the screen for "
-                 "one eye only, found by matching",
-                 {strips_vary})},
+             max_size},
             {framing_row(a.packing.framing, "on the display or the card", {no_frame})},
             slicing_rows(a.input.slicing, {no_painting}, is_film_of_planes),
             walk,
             under({}, depth_rows(a.depth, no_depth), {no_picture}),
-            print_rows(a.print, {if_matched(a.packing, a.output)}, {if_card(a.packing, a.output)})});
+            print_rows(a.print, {if_matched(a.packing, a.output)}, {if_card(a.packing, a.output)}, {strips_vary})});
   // What works on films, too; of all else it is said first, before formats of pictures are looked for.
   constexpr std::array<std::string_view, 6> for_films{"VIEWS",    "--layout", "--swap",
                                                       "--output", "--to",     "--zero-parallax"};

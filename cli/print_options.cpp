@@ -6,8 +6,10 @@
 #include <utility>
 
 #include "placeholders.h"
+#include "wheatstone/display/arrange.h"
 #include "wheatstone/error.h"
 #include "wheatstone/files/text_encoding.h"
+#include "wheatstone/matching/match.h"
 
 namespace wheatstone::cli {
 namespace {
@@ -41,6 +43,28 @@ std::string parse_caption(const std::string& option, const std::string& words) {
   return words;
 }
 
+/// The strips that are typed, or those that the matched views need.
+FloatingWindow window_for(const StereoPair& pair, const TypedWindow& typed, const Session& session) {
+  if (!typed) {
+    const std::optional<MatchedPair> matched = match_if_any(pair, {}, session.progress);
+    const FloatingWindow window = matched ? floating_window_for(matched->geometry) : FloatingWindow{};
+    remark(session, fmt::format("floating window: {} pixels at the left edge, {} at the right", window.left_px,
+                                window.right_px));
+    return window;
+  }
+  const int width = pair.left.width();
+  if (typed->left_px + typed->right_px >= width)
+    throw Error(ErrorKind::wrong_usage, fmt::format("--floating-window: is '{},{}', which leaves nothing of {} pixels",
+                                                    typed->left_px, typed->right_px, width));
+  return *typed;
+}
+
+TypedWindow parse_strips(const std::string& option, const std::string& words) {
+  if (words == "auto") return std::nullopt;
+  const std::vector<int> strips = parse_integers(option, words, {',', 2, {0, 65535}, "LEFT,RIGHT or auto"});
+  return FloatingWindow{strips[0], strips[1]};
+}
+
 /// "2019:07:18 14:03:22" as "2019-07-18".
 std::string date_of(const std::string& taken) {
   std::string date = taken.substr(0, 10);
@@ -50,7 +74,7 @@ std::string date_of(const std::string& taken) {
 
 }  // namespace
 
-Rows print_rows(PrintArguments& a, const Reasons& unless_framed, Reasons unless_bordered) {
+Rows print_rows(PrintArguments& a, const Reasons& unless_framed, Reasons unless_bordered, Reasons unless_floating) {
   unless_bordered.insert(unless_bordered.end(), unless_framed.begin(), unless_framed.end());
   const auto crop = [](const std::string& option, const std::string& words) { return parse_crop(words, option); };
   return under(
@@ -68,7 +92,32 @@ Rows print_rows(PrintArguments& a, const Reasons& unless_framed, Reasons unless_
            unless_framed),
        row("--keep-location", flag(a.keep_location),
            "Also write the place where the photograph was taken into the files; the other notes of its camera are "
-           "always written, in JPEG, MPO, JPS and PNG")});
+           "always written, in JPEG, MPO, JPS and PNG"),
+       row("--floating-window", parsed(a.floating_window, parse_strips),
+           "Width LEFT,RIGHT in pixels of the black strips at the left edge of the left view and the right edge of the "
+           "right view; auto: as wide as needed for the frame to cut nothing before the screen for one eye only, found "
+           "by matching",
+           std::move(unless_floating))});
+}
+
+std::vector<Image<Rgb8>> put_in_frame(std::vector<Image<Rgb8>> views, const PrintArguments& arguments,
+                                      const PrintFrame& frame, float shift_px, const Session& session) {
+  if (frame.crop)
+    for (Image<Rgb8>& view : views) view = cropped(view, *frame.crop);
+  if (shift_px != 0) views = shifted_views(std::move(views), shift_px);
+  if (arguments.floating_window) {
+    if (views.size() != 2)
+      throw Error(ErrorKind::wrong_usage,
+                  fmt::format("--floating-window: is for two views, but there are {}", views.size()));
+    StereoPair pair{std::move(views[0]), std::move(views[1])};
+    const FloatingWindow window = window_for(pair, *arguments.floating_window, session);
+    put_floating_window(pair, window.left_px, window.right_px);
+    views[0] = std::move(pair.left);
+    views[1] = std::move(pair.right);
+  }
+  if (frame.border || !frame.caption.empty())
+    for (Image<Rgb8>& view : views) view = with_border_and_caption(view, frame);
+  return views;
 }
 
 PrintFrame print_frame_from(const PrintArguments& arguments, const PictureNotes& notes,

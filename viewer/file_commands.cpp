@@ -54,7 +54,9 @@ void save_seen_as(Viewer& viewer, const Words& words) {
   const Session& session = viewer.session();
   const Item* const item = open_item(session);
   const SeenToSave seen{session.opened.content, session.state, session.eye, item == nullptr ? Item() : *item};
-  viewer.save(path, [seen, format, path] { save_as(seen, format, path); });
+  viewer.save(path, [seen, format, path, framing = Words(words.begin() + 2, words.end())] {
+    save_as(seen, format, path, framing);
+  });
 }
 
 void save_painting(Viewer& viewer, const Words& words) {
@@ -132,7 +134,7 @@ constexpr Command file_table[] = {
      },
      {.applies = [](const Viewer& v) { return shows_something(v); }, .begins_group = true}},
     {"save-as",
-     "FORMAT FILE",
+     "FORMAT FILE [OPTION=VALUE] [OPTION=VALUE] [OPTION=VALUE] [OPTION=VALUE]",
      "File",
      "Save as…",
      "Ctrl+E",

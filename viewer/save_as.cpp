@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "cli/packing.h"
+#include "cli/print_options.h"
 #include "output_mode.h"
 #include "view_drawer.h"
 #include "wheatstone/depth/display_presets.h"
@@ -62,6 +63,23 @@ std::vector<Image<Rgb8>> drawn_views(ViewDrawer& drawer, const SeenToSave& seen,
   const DrawnViews* const photograph =
       photograph_only ? drawer.photographed(content, part, positions, shows_depth) : nullptr;
   return (photograph != nullptr ? *photograph : drawer.painted(content, seen.state, part, positions)).pictures;
+}
+
+/// Options of pack, each as "crop=4:3".
+cli::PrintArguments print_arguments(std::span<const std::string> framing) {
+  cli::PrintArguments arguments;
+  std::vector<cli::NamedWords> options;
+  for (const std::string& option : framing) {
+    const std::size_t equals = option.find('=');
+    if (equals == std::string::npos)
+      throw Error(ErrorKind::wrong_usage,
+                  fmt::format("'{}' is no option, expected crop=, border=, caption= or floating-window=", option));
+    std::string name = option.substr(0, equals);
+    std::ranges::replace(name, '-', '_');
+    options.push_back({std::move(name), {option.substr(equals + 1)}});
+  }
+  cli::set_rows(cli::print_rows(arguments, {}, {}, {}), options);
+  return arguments;
 }
 
 PictureNotes notes_of(const Item& files) {
@@ -119,7 +137,8 @@ std::vector<Image<Rgb8>> views_to_save(const SeenToSave& seen, int count, bool o
   return step_px == 0 ? views : shifted_views(std::move(views), seen.state.swap ? -step_px : step_px);
 }
 
-std::string save_as(const SeenToSave& given, const std::string& format, const fs::path& path) {
+std::string save_as(const SeenToSave& given, const std::string& format, const fs::path& path,
+                    std::span<const std::string> framing) {
   SeenToSave seen = given;
   const cli::PackingArguments arguments = packing_arguments(format, seen.state);
   const cli::Packing packing = cli::find_packing(arguments, path.string());
@@ -129,10 +148,15 @@ std::string save_as(const SeenToSave& given, const std::string& format, const fs
   const bool of_display = is_of_display(packing.format->name);
   if (of_display) seen.state.mode = packing.format->name;
   const int wanted = packing.format->name == "wiggle" ? wiggle_views : 2;
-  const std::vector<Image<Rgb8>> views = views_to_save(seen, wanted, of_display);
+  const cli::PrintArguments print = print_arguments(framing);
+  PrintFrame frame = cli::print_frame_from(print, output.notes, seen.files.empty() ? fs::path() : seen.files.front());
+  std::string caption;
+  if (cli::sets_caption(packing)) caption.swap(frame.caption);
   std::ostringstream told;
   const cli::Session session{.output = told, .errors = told, .quiet = true};
-  return cli::write_packed({packing, arguments, views, {}, {}, output, session});
+  const std::vector<Image<Rgb8>> views =
+      cli::put_in_frame(views_to_save(seen, wanted, of_display), print, frame, 0, session);
+  return cli::write_packed({packing, arguments, views, caption, {}, output, session});
 }
 
 }  // namespace wheatstone::viewer

@@ -37,8 +37,10 @@ struct SeenToSave {
 /// same place in all. Of a mode with a display's views, these. Throws Error{wrong_usage} where there is one view only.
 std::vector<Image<Rgb8>> views_to_save(const SeenToSave& seen, int count, bool of_display);
 
-/// Writes them as `wheatstone pack --to FORMAT` does and returns the name of what was written. Throws as that, and as
-/// views_to_save.
-std::string save_as(const SeenToSave& given, const std::string& format, const std::filesystem::path& path);
+/// Writes them as `wheatstone pack --to FORMAT` does and returns the name of what was written. `framing`: how they are
+/// cropped and framed, as that takes it: "crop=4:3", "border=3%,black", "caption={title}", "floating-window=auto".
+/// Throws as that, and as views_to_save.
+std::string save_as(const SeenToSave& given, const std::string& format, const std::filesystem::path& path,
+                    std::span<const std::string> framing = {});
 
 }  // namespace wheatstone::viewer

@@ -49,8 +49,10 @@ class WhatIsSeen : public testing::Test {
     viewer.wait();
   }
   /// Saves, and fails where that fails.
-  void save(const char* format, const std::string& name) {
-    run_command(viewer, find_command("save-as"), {format, folder / name});
+  void save(const char* format, const std::string& name, const Words& framing = {}) {
+    Words words{format, folder / name};
+    words.insert(words.end(), framing.begin(), framing.end());
+    run_command(viewer, find_command("save-as"), words);
     viewer.wait();
     EXPECT_FALSE(viewer.take_failed_save()) << format << ": " << viewer.session().message;
   }
@@ -96,6 +98,18 @@ TEST_F(WhatIsSeen, IsSavedAsPackWritesIt) {
   }
 }
 
+TEST_F(WhatIsSeen, IsCroppedAndFramedAsPackDoesIt) {
+  run("separation 1");
+  run("zero-parallax 0");
+  save("left-right", "seen.png", {"crop=4:3", "border=3%,black", "caption=Apples and {title}", "floating-window=5,7"});
+  pack({"--to", "left-right", "--crop", "4:3", "--border", "3%,black", "--caption", "Apples and {title}",
+        "--floating-window", "5,7"},
+       "packed.png");
+  EXPECT_EQ(read_image(folder / "seen.png"), read_image(folder / "packed.png"));
+  save("card", "seen.pdf", {"caption=Apples"});
+  EXPECT_TRUE(std::filesystem::exists(folder / "seen.pdf"));
+}
+
 TEST_F(WhatIsSeen, FollowsTheWindowsState) {
   run("separation 1");
   run("zero-parallax 0");
@@ -129,8 +143,8 @@ TEST_F(WhatIsSeen, HasEveryFormatThatIsListed) {
 
 TEST_F(WhatIsSeen, IsNotWrittenOverItsFileAndNotWhereItHasOneView) {
   const std::string before = read_whole_file(folder / "still.wst", 1 << 26);
-  const auto refused = [this](const char* format, const std::string& name) {
-    run_command(viewer, find_command("save-as"), {format, folder / name});
+  const auto refused = [this](const char* format, const std::string& name, const char* option = "border=2%") {
+    run_command(viewer, find_command("save-as"), {format, folder / name, option});
     viewer.wait();
     const std::optional<Error> failed = viewer.take_failed_save();
     return failed ? std::string(failed->what()) : std::string();
@@ -139,6 +153,10 @@ TEST_F(WhatIsSeen, IsNotWrittenOverItsFileAndNotWhereItHasOneView) {
   EXPECT_EQ(read_whole_file(folder / "still.wst", 1 << 26), before);
   EXPECT_THAT(refused("smellovision", "a.png"), HasSubstr("smellovision"));
   EXPECT_THAT(refused("red-cyan", "a.gif"), HasSubstr("expected a name that ends in"));
+  EXPECT_THAT(refused("jps", "a.jps", "border=thick"), HasSubstr("border"));
+  EXPECT_THAT(refused("jps", "a.jps", "crop=9000x9000"), HasSubstr("crop"));
+  EXPECT_THAT(refused("jps", "a.jps", "colour=red"), HasSubstr("colour"));
+  EXPECT_THAT(refused("jps", "a.jps", "large"), HasSubstr("'large' is no option"));
   run("display desk-stereo");
   EXPECT_THAT(refused("quilt", "a.png"), HasSubstr("desk-stereo takes no quilts"));
   open("left.png");

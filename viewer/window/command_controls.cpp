@@ -3,11 +3,14 @@
 #include <fmt/format.h>
 
 #include <QCheckBox>
+#include <QColorDialog>
 #include <QComboBox>
 #include <QDoubleSpinBox>
 #include <QFormLayout>
 #include <QHBoxLayout>
 #include <QLabel>
+#include <QPixmap>
+#include <QPushButton>
 #include <QSlider>
 #include <cmath>
 #include <cstdlib>
@@ -35,6 +38,8 @@ CommandControls::CommandControls(std::string_view menu, bool with_choices, QForm
       rows_.push_back(switch_of(command, parent));
     else if (with_choices && has_choices(command))
       rows_.push_back(box_of(command, parent));
+    else if (command.arguments == "COLOUR")
+      rows_.push_back(colour_of(command, parent));
     else
       continue;
     QWidget* const control = rows_.back().control;
@@ -103,6 +108,23 @@ CommandControls::Row CommandControls::switch_of(const Command& command, QWidget*
   return {&command, box, [&command, box](const Viewer& viewer) {
             const QSignalBlocker quiet(box);
             box->setChecked(command.entry.now(viewer) == "on");
+          }};
+}
+
+CommandControls::Row CommandControls::colour_of(const Command& command, QWidget* parent) {
+  auto* const button = new QPushButton(parent);
+  QObject::connect(button, &QPushButton::clicked, parent, [this, &command, button] {
+    const QColor chosen =
+        QColorDialog::getColor(QColor("#" + button->text()), button, QString::fromStdString(title_of(command)));
+    if (chosen.isValid()) do_command_(std::string(command.name), {chosen.name().mid(1).toStdString()});
+  });
+  return {&command, button, [&command, button](const Viewer& viewer) {
+            const QString now = QString::fromStdString(command.entry.now(viewer));
+            if (now == button->text()) return;
+            button->setText(now);
+            QPixmap patch(16, 16);
+            patch.fill(QColor("#" + now));
+            button->setIcon(patch);
           }};
 }
 

@@ -33,6 +33,7 @@ class CommandControls {
   Row slider_of(const Command& command, QWidget* parent);
   Row box_of(const Command& command, QWidget* parent);
   Row switch_of(const Command& command, QWidget* parent);
+  Row colour_of(const Command& command, QWidget* parent);
 
   DoCommand do_command_;
   QFormLayout& form_;

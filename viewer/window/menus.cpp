@@ -28,7 +28,7 @@ QList<QKeySequence> keys_of(const Command& command) {
 
 bool is_file(const Command& command) {
   return command.arguments == "FILE" || command.arguments == "FILE [RIGHT]" || command.arguments == "FOLDER" ||
-         command.arguments == "FORMAT FILE";
+         command.arguments.starts_with("FORMAT FILE");
 }
 
 }  // namespace
