@@ -75,6 +75,24 @@ Image<Rgb8> centred(ImageView<const Rgb8> picture, const Viewport& viewport) {
                  {viewport.width, viewport.height});
 }
 
+std::optional<std::size_t> plane_at(std::span<const PlaneFrame> planes, double x, double y) {
+  constexpr double near_px = 8;
+  std::optional<std::size_t> found;
+  double nearest = near_px;
+  for (std::size_t i = 0; i < planes.size(); ++i) {
+    for (std::size_t corner = 0; corner < 4; ++corner) {
+      const FramePoint &a = planes[i].corners[corner], &b = planes[i].corners[(corner + 1) % 4];
+      const double dx = b.x - a.x, dy = b.y - a.y, px = x - a.x, py = y - a.y;
+      const double along = std::clamp((px * dx + py * dy) / std::max(dx * dx + dy * dy, 1.), 0., 1.);
+      const double distance = std::hypot(px - along * dx, py - along * dy);
+      if (distance >= nearest) continue;
+      nearest = distance;
+      found = i;
+    }
+  }
+  return found;
+}
+
 std::vector<ViewPlace> places_in_frame(const OutputMode& mode, ViewPlace left, ViewPlace right,
                                        const Viewport& viewport) {
   if (const auto* const eye = std::get_if<SingleEye>(&mode.kind)) return {*eye == SingleEye::left ? left : right};

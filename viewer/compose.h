@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "content.h"
@@ -37,6 +39,20 @@ struct PlaceInView {
 /// What lies at a pixel of a frame; none beside the views.
 std::optional<PlaceInView> place_at(const std::vector<ViewPlace>& places, double x, double y);
 
+/// A point of a picture or frame, in its pixels.
+struct FramePoint {
+  float x = 0, y = 0;
+};
+
+/// A slicing plane beside a painting's layers, drawn as a frame.
+struct PlaneFrame {
+  std::array<FramePoint, 4> corners;  ///< in their order around it
+  FramePoint way;                     ///< from where it lies at the nearest stroke to where it lies at the farthest
+};
+
+/// Which of the planes has a line at a place; none where there is no line within a few pixels.
+std::optional<std::size_t> plane_at(std::span<const PlaneFrame> planes, double x, double y);
+
 /// A picture of what is open, as a viewport shows it.
 struct Frame {
   Image<Rgb8> picture;            ///< of the viewport's size
@@ -48,6 +64,7 @@ struct Frame {
   Content shown;                         ///< what it shows, with its depth as it is seen
   Content placed;                        ///< the same, without more depth where somebody looks
   std::optional<DepthEnds> depth;        ///< of that
+  std::vector<PlaneFrame> planes;        ///< slicing planes that can be dragged, from that of the finest layer on
 };
 
 /// The size of the picture that each eye is to have, before a mode puts both in one.

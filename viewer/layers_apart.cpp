@@ -54,6 +54,8 @@ class SideView {
     return {seen(-x, -y, depth), seen(x, -y, depth), seen(x, y, depth), seen(-x, y, depth)};
   }
 
+  cv::Point2f middle(double depth) const { return seen(0, 0, depth); }
+
   cv::Mat of_pane(double depth) const {
     const std::array from{cv::Point2f(0, 0), cv::Point2f(static_cast<float>(width_), 0),
                           cv::Point2f(static_cast<float>(width_), static_cast<float>(height_)),
@@ -95,6 +97,15 @@ void lay_over(const LayerPicture& pane, const cv::Mat& place, Image<Rgb8>& pictu
     };
     below = {over(above.r, below.r), over(above.g, below.g), over(above.b, below.b)};
   }
+}
+
+PlaneFrame plane_frame(const SideView& view, double depth, double at_nearest, double at_farthest) {
+  PlaneFrame plane;
+  const std::array<cv::Point2f, 4> corners = view.corners(depth, frame_larger);
+  for (std::size_t i = 0; i < corners.size(); ++i) plane.corners[i] = {corners[i].x, corners[i].y};
+  const cv::Point2f way = view.middle(at_farthest) - view.middle(at_nearest);
+  plane.way = {way.x, way.y};
+  return plane;
 }
 
 void draw_frame(const std::array<cv::Point2f, 4>& corners, Image<Rgb8>& picture) {
@@ -146,6 +157,7 @@ void LayersApart::draw_layers(const std::shared_ptr<const Painting>& painting, c
 std::vector<Image<Rgb8>> LayersApart::draw(const std::shared_ptr<const Painting>& painting, const ViewState& state,
                                            const PictureSize& size) {
   draw_layers(painting, state, size);
+  planes_.assign(std::min(plane_shares_.size(), layers_of_eyes_.front().size() - 1), {});
   std::vector<Image<Rgb8>> pictures;
   for (std::size_t eye = 0; eye < 2; ++eye) {
     const std::vector<LayerPicture>& layers = layers_of_eyes_[eye];
@@ -161,6 +173,7 @@ std::vector<Image<Rgb8>> LayersApart::draw(const std::shared_ptr<const Painting>
       const bool has_plane = plane < plane_shares_.size();
       const double before = has_plane ? (0.5 - plane_shares_[plane]) * step : 0;
       const auto draw_plane = [&] { draw_frame(view.corners(depth + before, frame_larger), picture); };
+      if (has_plane && eye == 0) planes_[plane] = plane_frame(view, depth + before, depth + step / 2, depth - step / 2);
       if (has_plane && before < 0) draw_plane();
       lay_over(layers[layer], view.of_pane(depth), picture);
       if (has_plane && before >= 0) draw_plane();

@@ -25,6 +25,8 @@ class LayersApart {
   /// Both eyes' pictures. The painting has layers.
   std::vector<Image<Rgb8>> draw(const std::shared_ptr<const Painting>& painting, const ViewState& state,
                                 const PictureSize& size);
+  /// The planes in the left eye's picture that was drawn last.
+  const std::vector<PlaneFrame>& planes() const { return planes_; }
 
  private:
   void draw_layers(const std::shared_ptr<const Painting>& painting, const ViewState& state, const PictureSize& size);
@@ -32,6 +34,7 @@ class LayersApart {
   std::shared_ptr<const Painting> painting_;
   Slicing slicing_;
   std::vector<float> plane_shares_;  ///< of the planes, from that of the finest layer on
+  std::vector<PlaneFrame> planes_;   ///< likewise
   double scale_ = 0;
   EyePositions eyes_;
   std::vector<std::vector<LayerPicture>> layers_of_eyes_;

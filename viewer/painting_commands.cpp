@@ -48,13 +48,16 @@ void toggle_slice(Viewer& viewer, const Words& /*words*/) {
   depths = depths.empty() ? std::vector{middle} : std::vector<SliceDepth>();
 }
 
-/// From where the finest layer's plane is; without one, from the nearest stroke.
-void step_slice(Viewer& viewer, float by) {
+/// From where the plane is, counted from that of the finest layer; without one, from the nearest stroke.
+void step_slice(Viewer& viewer, float by, std::size_t plane = 0) {
   std::vector<SliceDepth>& depths = state_of(viewer).slicing.depths;
-  const float from = !depths.empty() && depths.front().is_share ? depths.front().value : 0;
-  depths.resize(std::max<std::size_t>(depths.size(), 1));
-  depths.front() = {std::clamp(from + by, 0.f, 1.f)};
-  viewer.tell("slicing plane at " + slice_depths_text(depths));
+  depths.resize(std::max(depths.size(), plane + 1), {0, true});
+  float from = depths[plane].is_share ? depths[plane].value : 0;
+  const auto* const content = std::get_if<PaintedContent>(&viewer.session().opened.content);
+  if (!depths[plane].is_share && content != nullptr && content->painting)
+    from = shares_of(depths, *content->painting)[plane];
+  depths[plane] = {std::clamp(from + by, 0.f, 1.f), true};
+  viewer.tell(fmt::format("slicing plane at {:.0f} % of the way", 100 * depths[plane].value));
 }
 
 void set_style(Viewer& viewer, const Words& words) {
@@ -115,6 +118,15 @@ constexpr Command painting_table[] = {
      [](Viewer& v, const Words&) { step_slice(v, -slice_step); }},
     {"slice-farther", "", "Painting", "Move the slicing plane farther", "}",
      [](Viewer& v, const Words&) { step_slice(v, slice_step); }},
+    {"slice-move",
+     "NUMBER BY",
+     "Painting",
+     "Move the plane of a layer, counted from the finest one, 0, by a share of the way",
+     "",
+     [](Viewer& v, const Words& w) {
+       step_slice(v, static_cast<float>(number_of(w[1], -1, 1)), static_cast<std::size_t>(number_of(w[0], 0, 99)));
+     },
+     {.is_for_scripts = true}},
     {"less-detail",
      "",
      "Painting",

@@ -180,6 +180,25 @@ TEST_F(PanelsOfAPainting, HideExactlyTheLayersInFrontOfTheSlicingPlane) {
   }
 }
 
+TEST_F(PanelsOfAPainting, ShowPlanesThatCanBeDraggedBesideTheLayers) {
+  run("mode left");
+  run("slice-depth 20%,50%");
+  EXPECT_TRUE(viewer.frame()->planes.empty());
+  run("layers-apart 40");
+  ASSERT_EQ(viewer.frame()->planes.size(), 2u);
+  const PlaneFrame before = viewer.frame()->planes[1];
+  const FramePoint &a = before.corners[0], &b = before.corners[1];
+  EXPECT_EQ(plane_at(viewer.frame()->planes, (a.x + b.x) / 2, (a.y + b.y) / 2 + 2), 1u);
+  EXPECT_EQ(plane_at(viewer.frame()->planes, -200, -200), std::nullopt);
+  run("slice-move 1 0.25");
+  EXPECT_EQ(slice_depths_text(viewer.session().state.slicing.depths), "20%,75%");
+  // A pointer that moves so far along the way keeps the plane under it.
+  const PlaneFrame& now = viewer.frame()->planes[1];
+  EXPECT_NEAR((now.corners[0].x + now.corners[2].x - a.x - before.corners[2].x) / 2, before.way.x / 4, 3);
+  run("slice-move 1 -0.9");
+  EXPECT_EQ(slice_depths_text(viewer.session().state.slicing.depths), "20%,0%");
+}
+
 TEST_F(PanelsOfAPainting, ShowLayersApartFromTheSide) {
   const Image<Rgb8> front = picture_of("left");
   run("layers-apart 40");

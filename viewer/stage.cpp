@@ -201,7 +201,18 @@ Frame Stage::draw_apart(const PaintedContent& content, const ViewState& state, c
   const OutputMode& mode = find_output_mode(state.mode);
   std::vector<Image<Rgb8>> eyes = layers_apart_.draw(content.painting, state, eye_size(mode, viewport));
   if (state.swap) std::swap(eyes[0], eyes[1]);
-  return compose(mode, std::move(eyes[0]), std::move(eyes[1]), viewport);
+  const ViewPlace whole{left_eye, 0, 0, eyes[0].width(), eyes[0].height()};
+  const ViewPlace place = places_in_frame(mode, whole, whole, viewport).front();
+  Frame frame = compose(mode, std::move(eyes[0]), std::move(eyes[1]), viewport);
+  frame.planes = layers_apart_.planes();
+  for (PlaneFrame& plane : frame.planes) {
+    const auto squeeze_x = static_cast<float>(place.squeeze_x), squeeze_y = static_cast<float>(place.squeeze_y);
+    for (FramePoint& corner : plane.corners)
+      corner = {static_cast<float>(place.left) + squeeze_x * corner.x,
+                static_cast<float>(place.top) + squeeze_y * corner.y};
+    plane.way = {squeeze_x * plane.way.x, squeeze_y * plane.way.y};
+  }
+  return frame;
 }
 
 Frame Stage::draw_display(const Content& content, const ViewState& state, const Viewport& viewport) {

@@ -280,6 +280,9 @@ bool Window::pointer_event(QEvent* event) {
       const auto* const mouse = static_cast<QMouseEvent*>(event);
       pans_ = mouse->button() == Qt::MiddleButton || mouse->modifiers().testFlag(Qt::ShiftModifier);
       pressed_at_ = dragged_to_ = mouse->position() * ratio;
+      held_plane_ = viewer_.frame() == nullptr || pans_
+                        ? std::nullopt
+                        : plane_at(viewer_.frame()->planes, pressed_at_.x(), pressed_at_.y());
       return true;
     }
     case QEvent::MouseMove: {
@@ -339,6 +342,13 @@ void Window::drag_to(const QPointF& place) {
   if (!is_dragged_ && (place - pressed_at_).manhattanLength() < drag_begins_px) return;
   is_dragged_ = true;
   const QPointF moved = place - std::exchange(dragged_to_, place);
+  if (held_plane_ && viewer_.frame() != nullptr && *held_plane_ < viewer_.frame()->planes.size()) {
+    const FramePoint way = viewer_.frame()->planes[*held_plane_].way;
+    const double way_squared = way.x * way.x + way.y * way.y, along = moved.x() * way.x + moved.y() * way.y;
+    if (way_squared < 1) return;  // it is seen from the front
+    return do_line("slice-move",
+                   {fmt::format("{}", *held_plane_), fmt::format("{:.6f}", std::clamp(along / way_squared, -1., 1.))});
+  }
   const bool orbits = !pans_ && open_particles(viewer_) != nullptr;
   const double scale = orbits ? degrees_a_pixel : 1;
   do_line(orbits ? "orbit" : "pan",

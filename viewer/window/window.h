@@ -115,6 +115,7 @@ class Window final : public QMainWindow {
   QPointF pressed_at_, dragged_to_, pointer_;
   bool is_pressed_ = false, is_dragged_ = false, pans_ = false;
   std::uint64_t shown_frame_ = 0;
+  std::optional<std::size_t> held_plane_;  ///< the slicing plane that is dragged
   Theme shown_theme_ = Theme::desktop;
   const QPalette desktop_palette_ = QApplication::palette();
 
