@@ -6,8 +6,10 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <optional>
 #include <string>
 #include <thread>
+#include <utility>
 
 #include "commands.h"
 #include "wheatstone/depth/comfort.h"
@@ -155,10 +157,24 @@ void put_views(Json& facts, const fs::path& path, const std::string& layout, con
   }
 }
 
-Json facts_of_particles(const fs::path& path, const std::string& type) {
-  const CloudSource source = open_cloud(path, {.type = type});
+/// Reads the particles that a file has, and counts those that are chosen.
+std::uint64_t count_chosen(const CloudSource& source, const Progress& progress) {
+  constexpr std::size_t chunk = 1 << 16;
+  std::uint64_t read = 0, chosen = 0;
+  for (Cloud some = source.next(chunk); some.size() > 0; some = source.next(chunk)) {
+    read += some.size();
+    chosen += static_cast<std::uint64_t>(std::ranges::count(some.chosen, std::uint8_t{1}));
+    if (source.count) report(progress, "reading", static_cast<double>(read) / static_cast<double>(*source.count));
+    if (source.reuse) source.reuse(std::move(some));
+  }
+  return chosen;
+}
+
+Json facts_of_particles(const fs::path& path, const CloudChoice& choice, const Session& session) {
+  const CloudSource source = open_cloud(path, choice);
   Json facts = {{"kind", "particles"}, {"format", source.format}};
   if (source.count) facts["particles"] = *source.count;
+  if (choice.where) facts["chosen"] = count_chosen(source, session.progress);
   if (source.box_size > 0) facts["box_size"] = source.box_size;
   if (source.redshift) facts["redshift"] = *source.redshift;
   facts["bytes"] = source.bytes;
@@ -309,6 +325,7 @@ struct InfoArguments {
   bool devices = false;
   std::optional<float> scale;
   std::string type, layout, display;
+  std::optional<Condition> where;
 };
 
 enum class DescribedKind { devices, film, painting, model, particles, disparity, views, slices, quilt, picture };
@@ -349,7 +366,7 @@ Json facts_of(const InfoArguments& arguments, const Session& session) {
     case DescribedKind::model:
       return facts_of_model(path, session);
     case DescribedKind::particles:
-      return facts_of_particles(path, arguments.type);
+      return facts_of_particles(path, {.type = arguments.type, .where = arguments.where}, session);
     case DescribedKind::disparity:
       return facts_of_disparity(path, arguments.scale);
     case DescribedKind::views: {
@@ -413,6 +430,13 @@ Rows info_rows(InfoArguments& a) {
           {only({DescribedKind::disparity}, "it works on pictures")}),
       row("--type", text(a.type), "Particle type of a GADGET snapshot: gas, halo, disk, bulge, stars, bndry or 0 to 5",
           {only({DescribedKind::particles}, "it works on particles")}),
+      row("--where",
+          parsed(
+              a.where,
+              [](const std::string& option, const std::string& words) { return parse_condition(words, option); },
+              "CONDITION"),
+          "Count the particles for which a condition holds, as 'Temperature > 1e6 and Density < 1e-3'; as for 'render'",
+          {only({DescribedKind::particles}, "it works on particles")}),
       row("--layout", text(a.layout), "Layout of a picture that holds both views, as for 'paint'",
           {only({DescribedKind::picture}, "it works on pictures")}),
       row("--display", text(a.display), "Also match the views and report their depth and comfort on this display",
@@ -427,6 +451,7 @@ Command info_command() {
                       R"(Examples:
   wheatstone info left.png
   wheatstone info photograph.mpo --display desk-stereo
+  wheatstone info universe.hdf5 --where 'Temperature > 1e5'
   wheatstone info --devices)");
 }
 

@@ -133,6 +133,7 @@ Report report_of(const RenderedParticles& result, const std::string& written, co
       {{"output", written},
        {"format", result.format},
        {"particles", result.particles},
+       {"unchosen", result.unchosen, some(result.unchosen, "left out by --where: {} particles")},
        {"dropped", result.dropped, some(result.dropped, "skipped: {} particles without a finite position")},
        {"weightless", result.weightless,
         some(result.weightless, "skipped: {} particles without a mass or without what is shown")},
@@ -224,6 +225,7 @@ Examples:
   wheatstone synth universe -o universe.hdf5
   wheatstone render universe.hdf5 --views 9 -o views
   wheatstone render universe.hdf5 --display looking-glass-portrait -o universe
+  wheatstone render universe.hdf5 --where 'Temperature > 1e5 and Density < 1e-7' -o hot
   wheatstone render universe.hdf5 --save-slices slices.exr && wheatstone render slices.exr --views 45
   wheatstone render model.glb --display looking-glass-portrait -o model
   wheatstone synth universe --particles 100000 --times 0.4,0.6,0.8 -o snap_%03d.hdf5

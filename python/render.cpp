@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <optional>
 #include <utility>
 
 #include "arrays.h"
@@ -17,6 +18,7 @@
 #include "wheatstone/app/annotate.h"
 #include "wheatstone/app/render_model_file.h"
 #include "wheatstone/error.h"
+#include "wheatstone/particles/select.h"
 #include "wheatstone/particles/unit_expression.h"
 
 namespace wheatstone::python {
@@ -37,11 +39,15 @@ Particles chosen(const Particles& particles, const RenderParticlesOptions& optio
     return choice == particles->choice ? particles : read_particles_of(particles->name, choice, progress);
   if (choice.quantity == "quantity" && !particles->cloud.quantity.empty()) choice.quantity.clear();
   choice.origin.reset();
+  const std::optional<Condition> where = std::exchange(choice.where, std::nullopt);
   if (choice != CloudChoice())
     throw Error(ErrorKind::wrong_usage,
                 "type, position and names of columns choose from a file; these particles are arrays, whose columns are "
                 "density, temperature, smoothing_length, mass and quantity");
-  return particles;
+  if (!where) return particles;
+  auto marked = std::make_shared<PyParticles>(*particles);
+  mark_chosen(marked->cloud, *where, {}, marked->name, {});
+  return marked;
 }
 
 RenderedParticles rendered(const Particles& given, const RenderParticlesOptions& options, const Progress& progress) {

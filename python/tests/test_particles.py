@@ -228,6 +228,23 @@ class FromTheCommandLine(InFolder):
         self.assertEqual(mean.units, "Gyr")
         self.assertTrue(0 <= np.nanmin(mean.values) <= np.nanmax(mean.values) <= 49)
 
+    def test_conditions_choose_from_files_and_arrays(self):
+        options = {"size": (64, 36), "views": 1}
+        where = "x > 50000 and Density < 1e-7"
+        views = wheatstone.render(self.folder / "u.hdf5", where=where, **options)
+        self.assertGreater(views.facts["particles"], 10)
+        loaded = wheatstone.load(self.folder / "u.hdf5")
+        np.testing.assert_array_equal(loaded.render(where=where, **options), views)
+        chosen = (loaded.positions[:, 0] > 50000) & (loaded.density < np.float32(1e-7))
+        self.assertEqual(views.facts["particles"], chosen.sum())
+        mass = np.arange(500.0)
+        hot = wheatstone.render(POSITIONS, mass=mass, where="mass >= 250 or z < -1", **options)
+        self.assertEqual(hot.facts["particles"], ((mass >= 250) | (POSITIONS[:, 2] < -1)).sum())
+        with self.assertRaisesRegex(ValueError, "has no quantity 'Spin', but x, y, z, mass"):
+            wheatstone.render(POSITIONS, mass=mass, where="Spin > 1", **options)
+        with self.assertRaisesRegex(ValueError, "where: expected one of < <= > >= == != at character 3, '= 1'"):
+            wheatstone.render(POSITIONS, where="x = 1", **options)
+
     def test_units_are_those_of_unyt_and_astropy(self):
         column = wheatstone.load(self.folder / "gas.txt").column_density(size=(32, 18))
         self.assertEqual((column.units, column.length_units), ("1e+10*Msun/kpc**2", "kpc"))

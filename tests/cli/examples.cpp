@@ -25,6 +25,37 @@ void add_line(const std::string& line, ExampleBlock& block) {
   }
 }
 
+/// A word as a shell sees it; quotes may stand around it or a part of it.
+struct ShellWord {
+  std::string text;
+  bool quoted = false;
+};
+
+/// The words of a line, up to a comment.
+std::vector<ShellWord> shell_words(const std::string& line) {
+  std::vector<ShellWord> words;
+  bool in_word = false;
+  char quote = 0;
+  for (const char c : line) {
+    if (quote == 0 && c == ' ') {
+      in_word = false;
+      continue;
+    }
+    if (!in_word && c == '#') break;
+    if (!in_word) words.emplace_back();
+    in_word = true;
+    if (quote == 0 && (c == '\'' || c == '"')) {
+      quote = c;
+      words.back().quoted = true;
+    } else if (c == quote) {
+      quote = 0;
+    } else {
+      words.back().text += c;
+    }
+  }
+  return words;
+}
+
 }  // namespace
 
 std::vector<ExampleBlock> examples_of_page(const std::filesystem::path& page) {
@@ -72,14 +103,17 @@ std::vector<ExampleBlock> examples_of_help(const std::string& command, const std
 
 std::vector<ExampleCommand> commands_of_line(const std::string& line) {
   std::vector<ExampleCommand> commands(1);
-  std::istringstream text(line.substr(0, line.find(" #")));
-  for (std::string word; text >> word;) {
-    if (word == "&&") {
+  bool into_file = false;
+  for (const ShellWord& word : shell_words(line)) {
+    if (!word.quoted && word.text == "&&") {
       commands.emplace_back();
-    } else if (word == ">") {
-      text >> commands.back().output_file;
+    } else if (!word.quoted && word.text == ">") {
+      into_file = true;
+    } else if (into_file) {
+      commands.back().output_file = word.text;
+      into_file = false;
     } else {
-      commands.back().words.push_back(word);
+      commands.back().words.push_back(word.text);
     }
   }
   return commands;

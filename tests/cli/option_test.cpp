@@ -197,6 +197,7 @@ std::vector<WithoutEffect> options_without_effect() {
       {{"render", "slices.exr", "-o", "out"},
        {{"--type", "gas"},
         {"--subsample", "2"},
+        {"--where", "x > 1"},
         {"--opacity", "1"},
         {"--opaque"},
         {"--size", "64x48"},

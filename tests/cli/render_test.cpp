@@ -89,6 +89,42 @@ TEST(RenderCommand, StreamsWhatItRendersWhole) {
   for (const auto& view : views) EXPECT_TRUE(view["equal"].get<bool>() || view["psnr_db"].get<double>() > 55);
 }
 
+TEST(RenderCommand, KeepsWhatAConditionHoldsForAndInfoCountsIt) {
+  const TemporaryFolder folder;
+  const std::string where = "Temperature > 1e5 and not (x < 50000 or Density >= 2e-7)";
+  const auto chosen = nlohmann::json::parse(run_in(folder, {"info", universe(), "--where", where, "--json"}).output);
+  const auto count = chosen["chosen"].get<int>();
+  EXPECT_GT(count, 100);
+  EXPECT_LT(count, 10000);
+  const auto render = [&](std::vector<std::string> line) {
+    line.insert(line.begin(), {"render", universe(), "--views", "1", "--size", "160x90", "--json"});
+    return nlohmann::json::parse(run_in(folder, line).output);
+  };
+  for (const std::string stream : {"", "--stream"}) {
+    std::vector<std::string> line{"--where", where, "-o", "views" + stream};
+    if (!stream.empty()) line.insert(line.end(), {stream, "--chunk", "1000"});
+    const auto facts = render(line);
+    EXPECT_EQ(facts["particles"], count);
+    EXPECT_EQ(facts["unchosen"], 20000 - count);
+  }
+  EXPECT_EQ(read_image(folder / "views/view_000.png"), read_image(folder / "views--stream/view_000.png"));
+  // A condition that is a box chooses what the box does.
+  const auto half = render({"--where", "x >= 50000 and X <= 100000", "-o", "a"});
+  EXPECT_EQ(half["particles"], render({"--select", "box:50000,-1,-1,100000,100001,100001", "-o", "b"})["particles"]);
+  const auto measured = run_in(folder, {"measure", "views", "a", "--against", "b", "--json"});
+  EXPECT_GT(nlohmann::json::parse(measured.output)["views"][0]["psnr_db"], 50);
+  expect_refused(folder, {"render", universe(), "--where", "Metallicity > 1", "-o", "c"}, 3,
+                 "has no quantity 'Metallicity', but Coordinates, Density, InternalEnergy");
+  expect_refused(folder, {"render", universe(), "--where", "Density > 1e30", "-o", "c"}, 3,
+                 "no particles to draw, the condition (where) holds for none");
+  expect_refused(folder, {"info", universe(), "--where", "Density >"}, 2,
+                 "--where: expected a number or a quantity at the end of 'Density >'");
+  run_in(folder, {"synth", "universe", "--particles", "4000", "--times", "0.6,0.8", "-o", "snap_%03d.hdf5"});
+  run_in(folder, {"render", "snap_%03d.hdf5", "--where", where, "--frames", "3", "--size", "64x36", "-o", "film.mp4"});
+  expect_refused(folder, {"render", "snap_%03d.hdf5", "--where", "Density > 1e30", "--frames", "2", "-o", "no.mp4"}, 3,
+                 "the condition (where) holds for none");
+}
+
 TEST(RenderCommand, SlicesServeAnyRigLater) {
   const TemporaryFolder folder;
   run_in(folder, {"render", universe(), "--views", "2", "--size", "160x90", "--save-slices", "s.exr", "-o", "a"});

@@ -14,7 +14,7 @@ namespace {
 struct ParticleReader {
   std::string_view name;
   std::string_view magic;                   ///< the first bytes by which the reader is told; put before every input
-  std::vector<CloudChoice> choices = {{}};  ///< one after the other
+  std::vector<CloudChoice> choices = {{}};  ///< one after the other, and with a condition
 };
 
 const ParticleReader& the_reader() {
@@ -54,7 +54,10 @@ void read_particles(const std::uint8_t* data, std::size_t size, std::string_view
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const wheatstone::fuzz::ParticleReader& reader = wheatstone::fuzz::the_reader();
-  for (const wheatstone::CloudChoice& choice : reader.choices)
+  for (wheatstone::CloudChoice choice : reader.choices) {
     wheatstone::fuzz::read_particles(data, size, reader.magic, choice);
+    choice.where = wheatstone::parse_condition("x > 0 or velocity-x < 1 and Density != 2");
+    wheatstone::fuzz::read_particles(data, size, reader.magic, choice);
+  }
   return 0;
 }

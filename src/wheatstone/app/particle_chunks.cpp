@@ -19,6 +19,7 @@ namespace wheatstone {
 namespace {
 
 void add(SelectionCounts& sum, const SelectionCounts& more) {
+  sum.unchosen += more.unchosen;
   sum.dropped += more.dropped;
   sum.weightless += more.weightless;
   sum.mended += more.mended;
@@ -180,14 +181,16 @@ void check_positions(const std::filesystem::path& file, const Cloud& cloud) {
                                 cloud.farthest != 0 ? cloud.farthest : static_cast<double>(value), largest));
 }
 
-void refuse_nothing(const std::filesystem::path& file, const Selection& selection, const SelectionCounts& counts) {
+void refuse_nothing(const std::filesystem::path& file, const RenderParticlesOptions& options,
+                    const SelectionCounts& counts) {
   if (counts.weightless > 0)
     throw Error(ErrorKind::bad_input, fmt::format("{}: no particles to draw, {} have no mass or nothing to show",
                                                   file.string(), counts.weightless));
-  const bool is_whole = std::holds_alternative<std::monostate>(selection.cut);
-  const std::string why = counts.dropped > 0 ? fmt::format("{} have no finite position", counts.dropped)
-                          : is_whole         ? "the file has none"
-                                             : "no particle is inside the selected region";
+  const bool is_whole = std::holds_alternative<std::monostate>(options.selection.cut);
+  const std::string why = counts.dropped > 0     ? fmt::format("{} have no finite position", counts.dropped)
+                          : !is_whole            ? "no particle is inside the selected region"
+                          : options.choice.where ? "the condition (where) holds for none"
+                                                 : "the file has none";
   throw Error(ErrorKind::bad_input, fmt::format("{}: no particles to draw, {}", file.string(), why));
 }
 
@@ -224,7 +227,7 @@ SurveyedParticles survey(const std::filesystem::path& file, const RenderParticle
   surveyed.counts = for_each_chunk(file, options, "reading", progress, look_at);
   surveyed.statistics.share(ranks);
   surveyed.statistics.mass = mass;
-  if (surveyed.statistics.count == 0) refuse_nothing(file, options.selection, surveyed.counts);
+  if (surveyed.statistics.count == 0) refuse_nothing(file, options, surveyed.counts);
   surveyed.statistics.framed = framed_region(surveyed.statistics, options.fit);
   if (surveyed.density == DensitySource::neighbours && !surveyed.all_kept) surveyed.density = DensitySource::grid;
   if (grid) {

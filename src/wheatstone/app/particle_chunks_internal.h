@@ -20,7 +20,7 @@ void put_quantity(Cloud& cloud, const std::filesystem::path& file, const std::st
 void check_positions(const std::filesystem::path& file, const Cloud& cloud);
 
 /// Says that nothing is left to draw, and why.
-[[noreturn]] void refuse_nothing(const std::filesystem::path& file, const Selection& selection,
+[[noreturn]] void refuse_nothing(const std::filesystem::path& file, const RenderParticlesOptions& options,
                                  const SelectionCounts& counts);
 
 /// Particles of a file, of which all is known.

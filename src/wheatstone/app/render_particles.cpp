@@ -107,6 +107,7 @@ RenderedParticles render_known(const KnownParticles& particles, const RenderPart
   const auto& [chunks, statistics, counts] = particles;
   RenderedParticles result;
   result.particles = statistics.count;
+  result.unchosen = counts.unchosen;
   result.dropped = counts.dropped;
   result.weightless = counts.weightless;
   result.mended = counts.mended;
@@ -189,7 +190,7 @@ ReadyParticles ready_particles(Cloud cloud, const std::filesystem::path& file, c
   ReadyParticles ready{.cloud = std::move(cloud)};
   put_quantity(ready.cloud, file, options.quantity);
   ready.counts = select_particles(ready.cloud, options.selection);
-  if (ready.cloud.size() == 0) refuse_nothing(file, options.selection, ready.counts);
+  if (ready.cloud.size() == 0) refuse_nothing(file, options, ready.counts);
   check_positions(file, ready.cloud);
   if (ready.cloud.density.empty() && ready.cloud.colour.empty()) {
     estimate_density(ready.cloud, options.neighbours, progress, options.rendering.ranks);

@@ -105,6 +105,7 @@ struct RenderedParticles {
   std::uint64_t triangles = 0;   ///< of a model
   std::uint64_t degenerate = 0;  ///< triangles without an area, which were left out
   std::uint64_t particles = 0;   ///< drawn
+  std::uint64_t unchosen = 0;    ///< left out: CloudChoice::where does not hold
   std::uint64_t dropped = 0;     ///< without a finite position
   std::uint64_t weightless = 0;  ///< left out: without a mass, or without what is to be shown
   std::uint64_t mended = 0;      ///< with a density or temperature that is not above 0, which got the least one

@@ -23,7 +23,8 @@ struct Cloud {
   std::vector<Rgb8> colour;
   /// Share of its light that a particle gives, where it fades, or how many particles it stands for; empty: 1.
   std::vector<float> presence;
-  std::vector<std::uint64_t> id;  ///< in a simulation; only where motion was asked for
+  std::vector<std::uint8_t> chosen;  ///< 1 where CloudChoice::where holds, else 0; empty: 1
+  std::vector<std::uint64_t> id;     ///< in a simulation; only where motion was asked for
   /// Changes of x, y and z in a unit of the snapshot's time; only where motion was asked for.
   std::vector<float> rate_x, rate_y, rate_z;
   /// Taken off every position in double precision when it was read, so that single precision suffices far from 0: an
@@ -43,7 +44,8 @@ struct Cloud {
 template <class AnyCloud>
 auto columns_of(AnyCloud& cloud) {
   return std::tie(cloud.x, cloud.y, cloud.z, cloud.density, cloud.temperature, cloud.smoothing_length, cloud.colour,
-                  cloud.mass, cloud.quantity, cloud.presence, cloud.id, cloud.rate_x, cloud.rate_y, cloud.rate_z);
+                  cloud.mass, cloud.quantity, cloud.presence, cloud.chosen, cloud.id, cloud.rate_x, cloud.rate_y,
+                  cloud.rate_z);
 }
 
 /// Calls `visit` with each column of one cloud and the same one of another.

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "wheatstone/error.h"
+#include "wheatstone/particles/select.h"
 
 namespace wheatstone {
 namespace {
@@ -86,8 +87,9 @@ float value_between(float earlier, float later, double share) {
 template <class Value, class Between>
 void put_column(const std::vector<Value>& earlier, const std::vector<Value>& later, const MatchedParticles& matched,
                 std::vector<Value>& to, Between between) {
-  if (earlier.empty() || later.empty()) return;
   const std::size_t both = matched.both.size(), gone = matched.only_earlier.size();
+  // Of no particles every column is empty.
+  if ((earlier.empty() && both + gone > 0) || (later.empty() && both + matched.only_later.size() > 0)) return;
   to.resize(both + gone + matched.only_later.size());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, both, rows_a_task), [&](const auto& range) {
     for (std::size_t i = range.begin(); i < range.end(); ++i)
@@ -140,6 +142,7 @@ TimedCloud read_timed_cloud(const std::filesystem::path& file, const CloudChoice
   if (!source.time)
     throw Error(ErrorKind::bad_input, fmt::format("{}: its header tells no time, expected 'Time'", file.string()));
   timed.time = *source.time;
+  keep_chosen(timed.cloud);
   order_by_id(timed.cloud, file);
   return timed;
 }

@@ -58,6 +58,12 @@ TEST(CloudBetween, FadesParticlesThatOneSnapshotLacks) {
   EXPECT_THAT(cloud.x, ElementsAre(100, 208, 276));
   EXPECT_THAT(cloud.presence, ElementsAre(1, FloatNear(0.84375f, 1e-6f), FloatNear(0.15625f, 1e-6f)));
   EXPECT_TRUE(between(earlier, earlier, 0).presence.empty());
+  // Of a snapshot of which no particle was chosen, the other's keep what they have.
+  TimedCloud full = later;
+  full.cloud.density = {5, 6};
+  const TimedCloud none = on_a_line(0, {}, {}, {});
+  EXPECT_THAT(between(none, full, 1).density, ElementsAre(5, 6));
+  EXPECT_EQ(between(none, full, 1).presence.size(), 2u);
 }
 
 TEST(CloudBetween, ChangesDensityByEqualFactorsInEqualTimes) {
@@ -99,6 +105,21 @@ TEST(CloudBetween, IsTenTimesNearerToTheTruthThanStraightLines) {
   RecordProperty("curved_kpc", std::to_string(curved));
   RecordProperty("straight_kpc", std::to_string(straight));
   EXPECT_LE(curved, straight / 10);
+}
+
+TEST(ReadTimedCloud, KeepsWhatIsChosenInEachSnapshot) {
+  const TemporaryFolder folder;
+  Cloud cloud = on_a_line(0, {5, 3, 4}, {1, 2, 3}, {0, 0, 0}).cloud;
+  cloud.density = cloud.temperature = cloud.smoothing_length = {1, 2, 3};
+  GadgetWriter writer(folder / "snap.hdf5", {.particles = 3, .box_size = box, .motion = true});
+  writer.add(cloud);
+  writer.commit();
+  const auto chosen = [&](const char* where) {
+    return read_timed_cloud(folder / "snap.hdf5", {.where = parse_condition(where)}).cloud;
+  };
+  EXPECT_THAT(chosen("Density >= 2").id, ElementsAre(3, 4));
+  EXPECT_THAT(chosen("Density >= 2").density, ElementsAre(2, 3));
+  EXPECT_EQ(chosen("Density > 9").size(), 0u);
 }
 
 TEST(ReadTimedCloud, RefusesWhatCannotBeFollowed) {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "wheatstone/particles/cloud.h"
+#include "wheatstone/particles/condition.h"
 #include "wheatstone/progress.h"
 
 namespace wheatstone {
@@ -25,6 +26,10 @@ struct CloudChoice {
   /// Name of a dataset or column that becomes Cloud::quantity. Of a vector, its length; with "-x", "-y" or "-z" behind
   /// the name, one component; "velocity" is a snapshot's velocity, whatever it calls it. Empty: none.
   std::string quantity;
+  /// Which particles are to be kept: told in Cloud::chosen, by which select_particles keeps them. Its quantities are
+  /// named as `quantity`, in small letters or capitals; what the file does not have is the cloud's own column of that
+  /// name: x, y, z, density, temperature, smoothing_length, mass, quantity.
+  std::optional<Condition> where;
   /// What the positions are to be relative to (Cloud::origin), where it is known which part of the file is looked at;
   /// else it is chosen from the first particles.
   std::optional<std::array<double, 3>> origin;

@@ -19,11 +19,7 @@ struct NamedColumns {
   const std::string& path;
   const std::vector<std::string>& names;
 
-  int find(const std::string& name) const {
-    for (std::size_t i = 0; i < names.size(); ++i)
-      if (lower_case(names[i]) == lower_case(name)) return static_cast<int>(i);
-    return -1;
-  }
+  int find(const std::string& name) const { return index_of_name(names, name); }
   int required(const std::string& name) const {
     const int found = find(name);
     if (found < 0)
@@ -39,6 +35,19 @@ struct NamedColumns {
     return -1;
   }
 };
+
+template <class Number>
+void take_component_of(std::size_t width, int component, std::vector<Number>& values) {
+  if (width == 1) return;
+  const std::size_t rows = values.size() / width;
+  for (std::size_t i = 0; i < rows; ++i) {
+    const std::span<const Number> row(values.data() + i * width, width);
+    Number square = 0;
+    for (const Number value : row) square += value * value;
+    values[i] = component >= 0 ? row[static_cast<std::size_t>(component)] : std::sqrt(square);
+  }
+  values.resize(rows);
+}
 
 }  // namespace
 
@@ -108,16 +117,22 @@ void check_component(std::size_t width, const QuantityName& name, const std::str
                                                 name.base, width, "xyz"[name.component]));
 }
 
+std::vector<std::string> names_in_condition(const CloudChoice& choice) {
+  return choice.where ? choice.where->names : std::vector<std::string>();
+}
+
+int index_of_name(std::span<const std::string> names, const std::string& wanted) {
+  const auto index = [&](auto found) { return found == names.end() ? -1 : static_cast<int>(found - names.begin()); };
+  if (const int same = index(std::ranges::find(names, wanted)); same >= 0) return same;
+  return index(std::ranges::find(names, lower_case(wanted), lower_case));
+}
+
 void take_component(std::size_t width, int component, std::vector<float>& values) {
-  if (width == 1) return;
-  const std::size_t rows = values.size() / width;
-  for (std::size_t i = 0; i < rows; ++i) {
-    const std::span<const float> row(values.data() + i * width, width);
-    float square = 0;
-    for (const float value : row) square += value * value;
-    values[i] = component >= 0 ? row[static_cast<std::size_t>(component)] : std::sqrt(square);
-  }
-  values.resize(rows);
+  take_component_of(width, component, values);
+}
+
+void take_component(std::size_t width, int component, std::vector<double>& values) {
+  take_component_of(width, component, values);
 }
 
 std::array<std::string, 3> position_names(const std::string& path, const CloudChoice& choice,
@@ -142,6 +157,7 @@ ChosenColumns choose_columns(const std::string& path, const std::vector<std::str
   chosen.smoothing_length = columns.chosen(choice.smoothing_length, {"smoothing_length", "hsml", "h"});
   chosen.mass = columns.chosen(choice.mass, {"mass", "masses"});
   if (!choice.quantity.empty()) chosen.quantity = columns.required(choice.quantity);
+  for (const std::string& name : names_in_condition(choice)) chosen.named.push_back(columns.find(name));
   chosen.colour = {columns.chosen({}, {"red", "r"}), columns.chosen({}, {"green", "g"}),
                    columns.chosen({}, {"blue", "b"})};
   return chosen;

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,6 +16,7 @@ struct ChosenColumns {
   std::array<int, 3> position{0, 1, 2};
   int density = -1, temperature = -1, smoothing_length = -1, mass = -1, quantity = -1;
   std::array<int, 3> colour{-1, -1, -1};
+  std::vector<int> named;  ///< of CloudChoice::where
 };
 
 /// The columns that the user named, and else those of the usual names: x, y, z; density or rho; and so on, in small
@@ -34,11 +36,18 @@ struct QuantityName {
 };
 QuantityName quantity_name(const std::string& text);
 
+/// The names of the quantities that a choice's condition asks for; none where it has none.
+std::vector<std::string> names_in_condition(const CloudChoice& choice);
+
+/// The index of a name, or else of one that differs from it by small letters and capitals only; −1 where there is none.
+int index_of_name(std::span<const std::string> names, const std::string& wanted);
+
 /// Throws Error{bad_input} where rows of `width` numbers do not have the component that is asked for.
 void check_component(std::size_t width, const QuantityName& name, const std::string& file);
 
 /// Rows of `width` numbers become one number each: a component, or with −1 their length; a single number stays itself.
 void take_component(std::size_t width, int component, std::vector<float>& values);
+void take_component(std::size_t width, int component, std::vector<double>& values);
 
 /// A name in small letters.
 std::string lower_case(std::string name);

@@ -36,6 +36,7 @@ using File = std::unique_ptr<fitsfile, Close>;
 struct Column {
   std::string name, unit;
   LONGLONG width = 0;  ///< 0 where it holds no numbers
+  bool single_precision = false;
 };
 
 /// A table, or an image of three dimensions, that is open at it.
@@ -81,6 +82,9 @@ struct FitsRows {
     put(chosen.smoothing_length, rows.others.smoothing_length);
     put(chosen.mass, rows.others.mass);
     put(chosen.quantity, rows.others.quantity);
+    for (const int column : chosen.named)
+      rows.named.push_back(column < 0 ? QuantityColumn{}
+                                      : QuantityColumn{read(column, some), columns[column].single_precision});
     at += some;
     return rows;
   }
@@ -137,8 +141,8 @@ std::vector<Column> columns_of(fitsfile* file) {
     constexpr LONGLONG widest = 1024;
     const bool is_numbers =
         status == 0 && std::ranges::find(numbers, type) != numbers.end() && repeat >= 1 && repeat <= widest;
-    columns.push_back(
-        {text_of(file, fmt::format("TTYPE{}", i)), text_of(file, fmt::format("TUNIT{}", i)), is_numbers ? repeat : 0});
+    columns.push_back({text_of(file, fmt::format("TTYPE{}", i)), text_of(file, fmt::format("TUNIT{}", i)),
+                       is_numbers ? repeat : 0, type == TFLOAT});
   }
   return columns;
 }
@@ -191,6 +195,7 @@ CloudSource open_table(const std::shared_ptr<FitsRows>& reading, const CloudChoi
   for (const int column : {table.chosen.density, table.chosen.temperature, table.chosen.smoothing_length,
                            table.chosen.mass, table.chosen.quantity})
     check(column);
+  std::ranges::for_each(table.chosen.named, check);
   LONGLONG rows = 0;
   LONGLONG bytes = 0;
   int status = 0;
@@ -207,7 +212,7 @@ CloudSource open_table(const std::shared_ptr<FitsRows>& reading, const CloudChoi
   CloudSource source{.format = "FITS table", .count = table.count, .fields = names_of(table.columns)};
   for (const Column& column : table.columns)
     if (!column.unit.empty()) source.units.emplace_back(column.name, column.unit);
-  give_rows([reading](std::size_t most, ParticleRows& next) { next = reading->next_rows(most); }, choice.origin,
+  give_rows([reading](std::size_t most, ParticleRows& next) { next = reading->next_rows(most); }, reading->path, choice,
             source);
   return source;
 }
@@ -228,8 +233,8 @@ CloudSource open_image(const std::shared_ptr<FitsRows>& reading, const CloudChoi
   CloudSource source{.format = "FITS image", .fields = {"density"}};
   if (const std::string unit = text_of(reading->file.get(), "BUNIT"); !unit.empty())
     source.units.emplace_back("density", unit);
-  give_rows([reading](std::size_t most, ParticleRows& next) { next = reading->next_voxels(most); }, choice.origin,
-            source);
+  give_rows([reading](std::size_t most, ParticleRows& next) { next = reading->next_voxels(most); }, reading->path,
+            choice, source);
   return source;
 }
 

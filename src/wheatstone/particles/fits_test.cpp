@@ -75,6 +75,8 @@ TEST(Fits, ReadsTheFirstTableWithAPosition) {
   EXPECT_THAT(cloud.y, ElementsAre(2, 5, 8));
   EXPECT_THAT(cloud.z, ElementsAre(3, 6, 9.5f));
   EXPECT_THAT(cloud.density, ElementsAre(10, 20, 30));
+  EXPECT_THAT(read_cloud(folder / "a.fits", {.where = parse_condition("rho <= 20 and x > 1000000003")}).chosen,
+              ElementsAre(0, 1, 0));
   const CloudSource source = open_cloud(folder / "a.fits");
   EXPECT_EQ(source.format, "FITS table");
   EXPECT_EQ(source.count, 3u);

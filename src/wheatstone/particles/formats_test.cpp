@@ -185,6 +185,8 @@ TEST(Npy, ReadsHalfFloatsAndRecords) {
     expect_three_points(cloud);
     EXPECT_THAT(cloud.density, ElementsAre(10, 40, 70));
     EXPECT_THAT(read_cloud(folder / "a.npy", {.position = "rho,y,z"}).x, ElementsAre(10, 40, 70));
+    EXPECT_THAT(read_cloud(folder / "a.npy", {.where = parse_condition("rho > 10 and Z < 9")}).chosen,
+                ElementsAre(0, 1, 0));
   }
 }
 
@@ -193,7 +195,9 @@ TEST(Npy, PositionsAreInTheColumnsThatAreNamed) {
   Bytes rows;
   for (const float x : {1.f, 4.f}) rows.put(x + 2).put(-1.f).put(x).put(x + 1);
   write_whole_file(folder / "a.npy", npy("{'descr': '<f4', 'fortran_order': False, 'shape': (2, 4), }", rows.text));
-  const Cloud cloud = read_cloud(folder / "a.npy", {.position = "2,3,0"});
+  const Cloud cloud =
+      read_cloud(folder / "a.npy", {.position = "2,3,0", .where = parse_condition("\"0\" > 3 and x == 4")});
+  EXPECT_THAT(cloud.chosen, ElementsAre(0, 1));
   EXPECT_THAT(cloud.x, ElementsAre(1, 4));
   EXPECT_THAT(cloud.y, ElementsAre(2, 5));
   EXPECT_THAT(cloud.z, ElementsAre(3, 6));
@@ -278,6 +282,9 @@ TEST(Las, KeepsCentimetresFarFromTheOrigin) {
   EXPECT_EQ(cloud.colour[1], (Rgb8{255, 0, 1}));
   EXPECT_THAT(read_cloud(folder / "a.las", {.temperature = "intensity"}).temperature, ElementsAre(100, 200, 300));
   EXPECT_EQ(read_cloud(folder / "a.las", {.position = "x,y,z"}).x, chosen.x);
+  EXPECT_THAT(read_cloud(folder / "a.las", {.where = parse_condition("intensity > 100 and red == 65535")}).chosen,
+              ElementsAre(0, 1, 1));
+  EXPECT_THAT(read_cloud(folder / "a.las", {.where = parse_condition("z >= 4500009.5")}).chosen, ElementsAre(0, 0, 1));
   expect_error(ErrorKind::bad_input, "a.las: has no positions 'z,y,x', but x,y,z",
                [&] { read_cloud(folder / "a.las", {.position = "z,y,x"}); });
   expect_truncations_refused(las(3), "cut.las");
@@ -325,7 +332,7 @@ std::string gadget(const BinaryOptions& options) {
   block("HEAD", header.text);
   block("POS ", floats({1, 2, 3, 4, 5, 6, 7, 8, 9.5f}));
   block("VEL ", floats({0, 0, 0, 0, 0, 0, 0, 0, 0}));
-  block("ID  ", floats({0, 0, 0}));
+  block("ID  ", Bytes(options.big).put<std::uint32_t>(7).put<std::uint32_t>(4'000'000'000).put<std::uint32_t>(9).text);
   block("U   ", floats({100, 200}));
   block("RHO ", floats({10, 20}));
   block("HSML", floats({3, 4}));
@@ -343,8 +350,14 @@ TEST(GadgetBinary, ReadsBothFormatsInBothByteOrders) {
       EXPECT_THAT(gas.smoothing_length, ElementsAre(3, 4));
       EXPECT_THAT(gas.temperature, ElementsAre(gas_temperature(100), gas_temperature(200)));
       EXPECT_EQ(gas.box_size, 1000);
+      EXPECT_THAT(read_cloud(folder / "snap", {.where = parse_condition("ID == 4000000000 and rho > 10")}).chosen,
+                  ElementsAre(0, 1));
+      EXPECT_THAT(read_cloud(folder / "snap", {.where = parse_condition("POS-z < 4 or velocity-x > 0")}).chosen,
+                  ElementsAre(1, 0));
       const Cloud dark = read_cloud(folder / "snap", {.type = "halo"});
       EXPECT_THAT(dark.z, ElementsAre(9.5f));
+      EXPECT_THAT(read_cloud(folder / "snap", {.type = "halo", .where = parse_condition("id == 9")}).chosen,
+                  ElementsAre(1));
       EXPECT_TRUE(dark.density.empty());
     }
 }

@@ -179,6 +179,12 @@ std::vector<double> read_numbers(const BinaryPart& part, std::ifstream& file, co
   file.seekg(static_cast<std::streamoff>(block.begin + first * width * bytes));
   if (!file.read(raw.data(), static_cast<std::streamsize>(raw.size()))) refuse(part, "is cut short");
   std::vector<double> values(count * width);
+  if (block.name == "ID") {
+    for (std::size_t i = 0; i < values.size(); ++i)
+      values[i] = bytes == 4 ? static_cast<double>(decode<std::uint32_t>(raw.data() + 4 * i, part.swapped))
+                             : static_cast<double>(decode<std::uint64_t>(raw.data() + 8 * i, part.swapped));
+    return values;
+  }
   for (std::size_t i = 0; i < values.size(); ++i)
     values[i] = bytes == 4 ? static_cast<double>(decode<float>(raw.data() + 4 * i, part.swapped))
                            : decode<double>(raw.data() + 8 * i, part.swapped);
@@ -189,6 +195,7 @@ struct BinaryReading {
   std::vector<BinaryPart> parts;
   std::size_t type = 0;
   QuantityName quantity;
+  std::vector<std::string> named;  // of CloudChoice::where
   std::size_t part = 0;
   std::uint64_t at = 0;
   std::ifstream file;
@@ -229,6 +236,7 @@ struct BinaryReading {
     put_positions(read_numbers(here, file, {*here.find("POS"), here.all(), 3}, before, count), 3, rows);
     put_mass(here, count, cloud);
     put_quantity(here, count, before, cloud);
+    put_named(here, count, before, rows);
     if (type != 0) return rows;
     const auto gas = [&](const char* name) {
       const Block* block = here.find(name);
@@ -259,7 +267,21 @@ struct BinaryReading {
       cloud.mass = in_single_precision(read_numbers(here, file, {*block, particles, 1}, before, count));
   }
 
-  /// A record of all particles, or of the gas. `before` is the number of the first particle among all.
+  /// The numbers of a record of all particles, or of the gas, one for each of the next particles. `before` is the
+  /// number of the first among all.
+  QuantityColumn read_record(const BinaryPart& here, const Block& block, int component, std::size_t count,
+                             std::uint64_t before) {
+    const bool vector = block.name == "VEL" || block.name == "POS";
+    const bool of_all = vector || block.name == "ID" || block.name == "POT";
+    const std::size_t width = vector ? 3 : 1;
+    if (!of_all && type != 0) refuse(here, fmt::format("its record {} is of the gas only", block.name));
+    const BinaryColumn column{block, of_all ? here.all() : here.count[0], width};
+    QuantityColumn read{read_numbers(here, file, column, of_all ? before : at, count),
+                        block.name != "ID" && block.bytes == sizeof(float) * column.particles * width};
+    take_component(width, component, read.values);
+    return read;
+  }
+
   void put_quantity(const BinaryPart& here, std::size_t count, std::uint64_t before, Cloud& cloud) {
     if (quantity.base.empty()) return;
     const Block* block = here.find(quantity.base);
@@ -268,13 +290,18 @@ struct BinaryReading {
       for (const Block& other : here.blocks) names.emplace_back(other.name);
       refuse(here, fmt::format("has no record '{}', but {}", quantity.base, fmt::join(names, ", ")));
     }
-    const bool velocity = quantity.base == "VEL";
-    const bool of_all = velocity || quantity.base == "ID" || quantity.base == "POT" || quantity.base == "POS";
-    const std::size_t width = velocity || quantity.base == "POS" ? 3 : 1;
-    if (!of_all && type != 0) refuse(here, fmt::format("its record {} is of the gas only", quantity.base));
-    const BinaryColumn column{*block, of_all ? here.all() : here.count[0], width};
-    cloud.quantity = in_single_precision(read_numbers(here, file, column, of_all ? before : at, count));
-    take_component(width, quantity.component, cloud.quantity);
+    cloud.quantity = in_single_precision(read_record(here, *block, quantity.component, count, before).values);
+  }
+
+  /// What the user's condition asks for, where there is such a record.
+  void put_named(const BinaryPart& here, std::size_t count, std::uint64_t before, ParticleRows& rows) {
+    for (const std::string& wanted : named) {
+      QuantityName name = quantity_name(lower_case(wanted));
+      if (name.base == "velocity") name.base = "vel";
+      const auto block = std::ranges::find(here.blocks, name.base, [](const Block& b) { return lower_case(b.name); });
+      rows.named.push_back(block == here.blocks.end() ? QuantityColumn{}
+                                                      : read_record(here, *block, name.component, count, before));
+    }
   }
 };
 
@@ -300,6 +327,7 @@ CloudSource open_gadget_binary(const std::filesystem::path& path, const CloudCho
   auto reading = std::make_shared<BinaryReading>();
   reading->quantity = quantity_name(choice.quantity);
   if (reading->quantity.base == "velocity") reading->quantity.base = "VEL";
+  reading->named = names_in_condition(choice);
   reading->type = static_cast<std::size_t>(snapshot_type(choice.type));
   const BinaryPart first = open_part(path);
   CloudSource source{.format = first.labelled ? "GADGET binary 2" : "GADGET binary 1",
@@ -326,7 +354,7 @@ CloudSource open_gadget_binary(const std::filesystem::path& path, const CloudCho
     refuse(first,
            fmt::format("its header says {} particles, but there are only {}", first.total[reading->type], count));
   source.count = count;
-  give_rows([reading](std::size_t most, ParticleRows& rows) { rows = reading->next(most); }, choice.origin, source);
+  give_rows([reading](std::size_t most, ParticleRows& rows) { rows = reading->next(most); }, path, choice, source);
   source.skip = [reading](std::size_t most) { return reading->skip(most); };
   return source;
 }

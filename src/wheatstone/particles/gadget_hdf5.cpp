@@ -33,6 +33,7 @@ struct Part {
   hsize_t count = 0;
   Hdf5Column position, density, temperature, energy, electrons, smoothing_length, volume, mass, quantity;
   Hdf5Column id, velocity;
+  std::vector<NamedHdf5Column> named;  // of CloudChoice::where
   double rate_of_velocity = 1;
   int component = -1;          // of the quantity, where it is a vector
   double mass_of_each = 0;     // where the header says it
@@ -113,6 +114,20 @@ void open_quantity(Part& part, const std::string& wanted) {
   check_component(part.quantity.width, name, part.path);
 }
 
+/// The datasets that the user's condition asks for, as far as there are such.
+void open_named(Part& part, const CloudChoice& choice) {
+  const std::vector<std::string> datasets = hdf5_datasets(part.group);
+  for (const std::string& wanted : names_in_condition(choice)) {
+    std::optional<QuantityName> name = find_quantity(part.group, datasets, wanted);
+    const QuantityName velocity = quantity_name(lower_case(wanted));
+    const std::string velocities = first_of(part.group, {"Velocities", "Velocity"});
+    if (!name && velocity.base == "velocity" && !velocities.empty()) name = {velocities, velocity.component};
+    part.named.push_back(name ? NamedHdf5Column{find_column(part, name->base, {}), name->component}
+                              : NamedHdf5Column{});
+    if (name) check_component(part.named.back().column.width, *name, part.path);
+  }
+}
+
 Part open_part(const std::filesystem::path& path, int type, const CloudChoice& choice) {
   Part part;
   part.path = path.string();
@@ -137,6 +152,7 @@ Part open_part(const std::filesystem::path& path, int type, const CloudChoice& c
   part.mass = find_column(part, choice.mass, {"Masses", "Mass"});
   if (!part.mass.dataset) part.mass_of_each = header_mass(part.file, type);
   open_quantity(part, choice.quantity);
+  open_named(part, choice);
   if (choice.motion) find_motion(part);
   return part;
 }
@@ -204,6 +220,7 @@ void read_part(const Part& part, hsize_t first, hsize_t count, ParticleRows& row
   put_mass_and_quantity(part, first, count, cloud);
   put_smoothing_length(part, first, count, cloud);
   put_motion(part, first, count, cloud);
+  for (const NamedHdf5Column& named : part.named) rows.named.push_back(read_quantity(named, first, count, part.path));
 }
 
 /// Which columns a part has: those of one snapshot have the same.
@@ -329,7 +346,7 @@ CloudSource open_gadget_hdf5(const std::filesystem::path& path, const CloudChoic
     throw Error(ErrorKind::bad_input, fmt::format("{}: its header says {} particles, but there are only {}",
                                                   path.string(), header.total, count));
   source.count = count;
-  give_rows([snapshot](std::size_t most, ParticleRows& rows) { snapshot->next(most, rows); }, choice.origin, source);
+  give_rows([snapshot](std::size_t most, ParticleRows& rows) { snapshot->next(most, rows); }, path, choice, source);
   source.skip = [snapshot](std::size_t most) { return snapshot->skip(most); };
   return source;
 }

@@ -159,6 +159,23 @@ void read_rows(const Hdf5Column& column, hsize_t first, hsize_t count, std::vect
   to = in_single_precision(numbers);
 }
 
+std::optional<QuantityName> find_quantity(hid_t where, std::span<const std::string> datasets, const std::string& name) {
+  for (const QuantityName& meant : {QuantityName{name, -1}, quantity_name(name)}) {
+    if (hdf5_has(where, meant.base)) return meant;
+    const int found = index_of_name(datasets, meant.base);
+    if (found >= 0) return QuantityName{datasets[static_cast<std::size_t>(found)], meant.component};
+  }
+  return std::nullopt;
+}
+
+QuantityColumn read_quantity(const NamedHdf5Column& named, hsize_t first, hsize_t count, const std::string& file) {
+  QuantityColumn column{.single_precision = named.column.single_precision};
+  if (!named.column.dataset) return column;
+  read_rows(named.column, first, count, column.values, file);
+  take_component(named.column.width, named.component, column.values);
+  return column;
+}
+
 void read_points(const Hdf5Column& column, hsize_t first, hsize_t count, ParticleRows& rows, const std::string& file) {
   if (column.single_precision && column.width == 3) {
     read_as(H5T_NATIVE_FLOAT, column, {first, count}, rows.single_points, file);

@@ -22,7 +22,8 @@ struct Datasets {
   Hdf5Handle file;
   std::vector<Hdf5Column> position;  // one of three numbers a row, or three of one
   Hdf5Column density, temperature, smoothing_length, mass, quantity;
-  int component = -1;  // of the quantity, where it is a vector
+  int component = -1;                  // of the quantity, where it is a vector
+  std::vector<NamedHdf5Column> named;  // of CloudChoice::where
   hsize_t count = 0;
   hsize_t at = 0;  // of the next row
 };
@@ -154,6 +155,12 @@ CloudSource open_hdf5_cloud(const std::filesystem::path& path, const CloudChoice
   datasets->quantity = open_named(*datasets, quantity.base);
   datasets->component = quantity.component;
   check_component(datasets->quantity.width, quantity, datasets->path);
+  for (const std::string& name : names_in_condition(choice)) {
+    const std::optional<QuantityName> found = find_quantity(datasets->file, all_datasets(datasets->file), name);
+    datasets->named.push_back(found ? NamedHdf5Column{open_named(*datasets, found->base), found->component}
+                                    : NamedHdf5Column{});
+    check_component(datasets->named.back().column.width, found.value_or(QuantityName{}), datasets->path);
+  }
   if (datasets->count == 0)
     throw Error(ErrorKind::bad_input, fmt::format("{}: {} has no rows", path.string(), position));
 
@@ -169,9 +176,11 @@ CloudSource open_hdf5_cloud(const std::filesystem::path& path, const CloudChoice
     read_scalars(*datasets, datasets->smoothing_length, 0, count, cloud.smoothing_length);
     read_scalars(*datasets, datasets->mass, 0, count, cloud.mass);
     read_scalars(*datasets, datasets->quantity, datasets->component, count, cloud.quantity);
+    for (const NamedHdf5Column& named : datasets->named)
+      rows.named.push_back(read_quantity(named, datasets->at, count, datasets->path));
     datasets->at += count;
   };
-  give_rows(next, choice.origin, source);
+  give_rows(next, path, choice, source);
   source.skip = [datasets](std::size_t most) -> std::size_t {
     const hsize_t count = std::min<hsize_t>(most, datasets->count - datasets->at);
     datasets->at += count;

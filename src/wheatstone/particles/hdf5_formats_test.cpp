@@ -293,6 +293,45 @@ TEST(GadgetHdf5, ReadsMassesAndWhatIsToBeShown) {
   EXPECT_THAT(generic.quantity, ElementsAre(3, -1));
 }
 
+/// For which of a file's particles a condition holds.
+std::vector<std::uint8_t> chosen(const std::filesystem::path& file, const std::string& where, CloudChoice choice = {}) {
+  choice.where = parse_condition(where);
+  return read_cloud(file, choice).chosen;
+}
+
+TEST(GadgetHdf5, ChoosesByItsDatasetsAndByWhatIsMadeOfThem) {
+  const TemporaryFolder folder;
+  {
+    Hdf5Writer file(folder / "snap.hdf5");
+    file.group("PartType0");
+    file.dataset("PartType0/Coordinates", {1, 2, 3, 4, 5, 6, 7, 8, 9.5f}, 3);
+    file.dataset("PartType0/Velocities", {3, 0, 4, -1, 0, 0, 0, 0, 9}, 3);
+    file.dataset("PartType0/InternalEnergy", {100, 200, 300});
+    file.dataset("PartType0/Metallicity", {0.02f, 0.01f, NAN});
+  }
+  const auto expect_chosen = [&](const std::string& where, std::uint8_t a, std::uint8_t b, std::uint8_t c) {
+    EXPECT_THAT(chosen(folder / "snap.hdf5", where), ElementsAre(a, b, c)) << where;
+    EXPECT_THAT(chosen(folder / "snap.hdf5", where, {.origin = {{100, 0, 0}}}), ElementsAre(a, b, c)) << where;
+  };
+  expect_chosen("Metallicity == 0.02", 1, 0, 0);
+  expect_chosen("not metallicity == 0.02", 0, 1, 1);
+  expect_chosen("velocity-x < 0", 0, 1, 0);
+  expect_chosen("Velocities >= 5", 1, 0, 1);
+  expect_chosen("Coordinates-z > 9 or x == 1", 1, 0, 1);
+  expect_chosen(fmt::format("Temperature > {}", gas_temperature(150)), 0, 1, 1);
+  expect_chosen("/PartType0/InternalEnergy < 250", 1, 1, 0);
+  expect_error(ErrorKind::bad_input,
+               "snap.hdf5: has no quantity 'Spin', but Coordinates, InternalEnergy, Metallicity, Velocities, x, y, z, "
+               "temperature",
+               [&] { chosen(folder / "snap.hdf5", "Spin > 1"); });
+  expect_error(ErrorKind::bad_input, "Metallicity has 1 numbers per row, but component y",
+               [&] { chosen(folder / "snap.hdf5", "Metallicity-y > 1"); });
+  const CloudChoice generic{.position = "/PartType0/Coordinates"};
+  EXPECT_THAT(chosen(folder / "snap.hdf5", "/PartType0/Velocities-z > 3 and y < 5", generic), ElementsAre(1, 0, 0));
+  expect_error(ErrorKind::bad_input, "has no quantity 'Metallicity', but /PartType0/Coordinates",
+               [&] { chosen(folder / "snap.hdf5", "Metallicity > 1", generic); });
+}
+
 TEST(GadgetHdf5, NamesWhatIsMissingAndWhatThereIs) {
   const TemporaryFolder folder;
   write_snapshot(folder / "snap.hdf5", 2);

@@ -5,10 +5,12 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "wheatstone/particles/columns_internal.h"
 #include "wheatstone/particles/particle_rows_internal.h"
 
 namespace wheatstone {
@@ -61,6 +63,19 @@ struct Hdf5Column {
   hsize_t width = 1;
   bool single_precision = false;  ///< floating-point numbers that a float holds
 };
+
+/// A dataset that a condition asks for, or nothing.
+struct NamedHdf5Column {
+  Hdf5Column column;
+  int component = -1;  ///< of a vector; −1: its length
+};
+
+/// The dataset of that name, whole or a component of it ("Velocities-x"), in small letters or capitals; `datasets` are
+/// those that there are. Nothing where there is none.
+std::optional<QuantityName> find_quantity(hid_t where, std::span<const std::string> datasets, const std::string& name);
+
+/// Rows of such a dataset, one number each; none where there is no dataset.
+QuantityColumn read_quantity(const NamedHdf5Column& named, hsize_t first, hsize_t count, const std::string& file);
 
 /// Throws Error{bad_input} where it does not exist, holds no numbers, or has more than two dimensions. `file` and
 /// `name` are for the message.

@@ -90,6 +90,8 @@ CloudSource open_las(const std::filesystem::path& path, const CloudChoice& choic
   }
   const RecordField intensity{.at = 12, .type = NumberType::u16};
   std::vector<std::string> fields{"x", "y", "z", "intensity"};
+  std::vector<RecordField> as_stored(layout.position.begin(), layout.position.end());
+  as_stored.push_back(intensity);
   for (const std::string& wanted :
        {choice.density, choice.temperature, choice.smoothing_length, choice.mass, choice.quantity})
     if (!wanted.empty() && wanted != "intensity")
@@ -106,6 +108,11 @@ CloudSource open_las(const std::filesystem::path& path, const CloudChoice& choic
     layout.colour = {RecordField{at, NumberType::u16, scale}, RecordField{at + 2, NumberType::u16, scale},
                      RecordField{at + 4, NumberType::u16, scale}};
     fields.insert(fields.end(), {"red", "green", "blue"});
+    for (const std::size_t channel : {0, 1, 2}) as_stored.push_back({at + 2 * channel, NumberType::u16});
+  }
+  for (const std::string& wanted : names_in_condition(choice)) {
+    const int field = index_of_name(fields, wanted);
+    layout.named.push_back(field < 0 ? std::nullopt : std::optional(as_stored[static_cast<std::size_t>(field)]));
   }
   return open_records(layout, fmt::format("LAS 1.{}", minor), std::move(fields), choice);
 }

@@ -49,6 +49,10 @@ CloudSource open_rows(RecordLayout layout, const NpyElement& element, std::uint6
   if (const auto column = column_given(choice.quantity, columns, name)) layout.quantity = field(*column);
   std::vector<std::string> fields;
   for (std::uint64_t column = 0; column < columns; ++column) fields.push_back(std::to_string(column));
+  for (const std::string& wanted : names_in_condition(choice)) {
+    const int column = index_of_name(fields, wanted);
+    layout.named.push_back(column < 0 ? std::nullopt : std::optional(field(static_cast<std::uint64_t>(column))));
+  }
   return open_records(layout, "NumPy", std::move(fields), choice);
 }
 
@@ -62,6 +66,8 @@ CloudSource open_structures(RecordLayout layout, const NpyElement& element, cons
   if (chosen.smoothing_length >= 0) layout.smoothing_length = element.fields[chosen.smoothing_length];
   if (chosen.mass >= 0) layout.mass = element.fields[chosen.mass];
   if (chosen.quantity >= 0) layout.quantity = element.fields[chosen.quantity];
+  for (const int column : chosen.named)
+    layout.named.push_back(column < 0 ? std::nullopt : std::optional(element.fields[column]));
   if (std::ranges::min(chosen.colour) >= 0)
     layout.colour = {element.fields[chosen.colour[0]], element.fields[chosen.colour[1]],
                      element.fields[chosen.colour[2]]};

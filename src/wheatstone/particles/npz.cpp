@@ -121,6 +121,7 @@ class Numbers {
     }
   }
   std::uint64_t width() const { return width_; }
+  bool is_single_precision() const { return element_.fields[0].is_single_precision(); }
   std::vector<double> next(std::size_t rows) {
     std::vector<char> raw(rows * width_ * element_.bytes);
     if (!entry_ || read_bytes(entry_.get(), raw.data(), raw.size()) != raw.size()) refuse();
@@ -147,6 +148,7 @@ struct NpzRows {
   std::uint64_t at = 0;
   std::vector<Numbers> position;  // of rows, or three of columns
   std::vector<Numbers> density, temperature, smoothing_length, mass, quantity;
+  std::vector<std::vector<Numbers>> named;  // of CloudChoice::where: none or one
 
   ParticleRows next(std::size_t most) {
     ParticleRows rows;
@@ -164,6 +166,9 @@ struct NpzRows {
     if (!smoothing_length.empty()) rows.others.smoothing_length = in_single_precision(smoothing_length[0].next(some));
     if (!mass.empty()) rows.others.mass = in_single_precision(mass[0].next(some));
     if (!quantity.empty()) rows.others.quantity = in_single_precision(quantity[0].next(some));
+    for (std::vector<Numbers>& numbers : named)
+      rows.named.push_back(numbers.empty() ? QuantityColumn{}
+                                           : QuantityColumn{numbers[0].next(some), numbers[0].is_single_precision()});
     at += some;
     return rows;
   }
@@ -246,10 +251,12 @@ CloudSource open_npz(const std::filesystem::path& path, const CloudChoice& choic
   open_scalars(*reading, choice.smoothing_length, {"smoothing_length", "hsml"}, reading->smoothing_length);
   open_scalars(*reading, choice.mass, {"mass", "masses"}, reading->mass);
   open_scalars(*reading, choice.quantity, {}, reading->quantity);
+  for (const std::string& name : names_in_condition(choice))
+    open_scalars(*reading, {}, {name.c_str()}, reading->named.emplace_back());
   CloudSource source{.format = "NumPy archive", .count = reading->count};
   for (const Array& array : reading->arrays.all) source.fields.push_back(array.name);
   source.bytes = std::filesystem::file_size(path);
-  give_rows([reading](std::size_t most, ParticleRows& rows) { rows = reading->next(most); }, choice.origin, source);
+  give_rows([reading](std::size_t most, ParticleRows& rows) { rows = reading->next(most); }, path, choice, source);
   return source;
 }
 

@@ -61,6 +61,8 @@ TEST(Npz, ReadsRowsColumnsAndThreeArrays) {
     const Cloud cloud = read_cloud(folder / "a.npz");
     expect_three_points(cloud);
     EXPECT_THAT(cloud.density, ElementsAre(10, 20, 30));
+    EXPECT_THAT(read_cloud(folder / "a.npz", {.where = parse_condition("Density > 10 and x < 7")}).chosen,
+                ElementsAre(0, 1, 0));
     write_npz(folder / "a.npz", {density, {"places", "(3, 3)", {1, 4, 7, 2, 5, 8, 3, 6, 9.5}, true}}, deflated);
     expect_three_points(read_cloud(folder / "a.npz"));
     write_npz(folder / "a.npz", {{"z", "(3,)", {3, 6, 9.5}}, {"y", "(3,)", {2, 5, 8}}, {"x", "(3,)", {1, 4, 7}}},

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "wheatstone/particles/particle_rows_internal.h"
+#include "wheatstone/particles/select.h"
 
 namespace wheatstone {
 namespace {
@@ -129,6 +130,8 @@ ParticleRows taken(ParticleRows& from, std::size_t count) {
                     .single_points = taken(from.single_points, 3 * count)};
   for_each_column(rows.others, from.others, [&](auto& column, auto& rest) { column = taken(rest, count); });
   rows.others.box_size = from.others.box_size;
+  for (QuantityColumn& column : from.named)
+    rows.named.push_back({taken(column.values, count), column.single_precision});
   return rows;
 }
 
@@ -136,6 +139,9 @@ ParticleRows taken(ParticleRows& from, std::size_t count) {
 struct RowsInTurn {
   RowReader next;
   std::optional<std::array<double, 3>> origin;
+  std::optional<Condition> where;
+  std::string path;
+  std::vector<std::string> fields;
   ParticleRows rows = {};  ///< those that were read but not given yet; empty ones have memory
   Cloud used = {};         ///< given back, and empty but for its memory
 
@@ -151,9 +157,16 @@ struct RowsInTurn {
     } else if (rows.size() == 0) {
       read_rows(most);
     }
-    if (rows.size() <= most) return cloud_of(rows, *origin);
+    if (rows.size() <= most) return marked_cloud_of(rows);
     ParticleRows first = taken(rows, most);
-    return cloud_of(first, *origin);
+    return marked_cloud_of(first);
+  }
+
+  Cloud marked_cloud_of(ParticleRows& some) const {
+    std::vector<QuantityColumn> named = std::exchange(some.named, {});
+    Cloud cloud = cloud_of(some, *origin);
+    if (where) mark_chosen(cloud, *where, std::move(named), path, fields);
+    return cloud;
   }
 
   void reuse(Cloud cloud) {
@@ -174,8 +187,12 @@ void put_positions(std::vector<double> numbers, std::size_t width, ParticleRows&
   rows.points = std::move(numbers);
 }
 
-void give_rows(RowReader next, std::optional<std::array<double, 3>> origin, CloudSource& source) {
-  auto reading = std::make_shared<RowsInTurn>(RowsInTurn{.next = std::move(next), .origin = origin});
+void give_rows(RowReader next, const std::filesystem::path& path, const CloudChoice& choice, CloudSource& source) {
+  auto reading = std::make_shared<RowsInTurn>(RowsInTurn{.next = std::move(next),
+                                                         .origin = choice.origin,
+                                                         .where = choice.where,
+                                                         .path = path.string(),
+                                                         .fields = source.fields});
   source.next = [reading](std::size_t most) { return reading->read(most); };
   source.reuse = [reading](Cloud used) { reading->reuse(std::move(used)); };
 }

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <optional>
 #include <vector>
@@ -17,7 +18,8 @@ struct ParticleRows {
   /// where the file has no more, in single precision.
   std::vector<double> points;
   std::vector<float> single_points;
-  Cloud others;  ///< has no positions
+  Cloud others;                       ///< has no positions
+  std::vector<QuantityColumn> named;  ///< of the condition's names (CloudChoice::where); empty where the file has none
 
   std::size_t size() const { return x.size() + (points.size() + single_points.size()) / 3; }
 };
@@ -28,10 +30,11 @@ using RowReader = std::function<void(std::size_t most, ParticleRows& rows)>;
 /// Rows of x, y, z one after the other, as most files hold positions, each row `width` ≥ 3 numbers long.
 void put_positions(std::vector<double> numbers, std::size_t width, ParticleRows& rows);
 
-/// Lets a source give the rows as clouds, whose positions are relative to `origin`, and without one to a point that is
-/// chosen from the first thousand rows: 0 along an axis on which they lie around 0, or near enough for single
-/// precision, and else their median. It is the same however large the chunks are.
-void give_rows(RowReader next, std::optional<std::array<double, 3>> origin, CloudSource& source);
+/// Lets a source give the rows of a file as clouds, those marked for which the choice's condition holds. Their
+/// positions are relative to the choice's origin, and without one to a point that is chosen from the first thousand
+/// rows: 0 along an axis on which they lie around 0, or near enough for single precision, and else their median. It is
+/// the same however large the chunks are.
+void give_rows(RowReader next, const std::filesystem::path& path, const CloudChoice& choice, CloudSource& source);
 
 /// The nearest number of single precision that is finite and, where the value is not 0, not 0: what is too large or too
 /// small becomes the largest or the smallest number.

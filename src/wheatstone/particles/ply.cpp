@@ -134,6 +134,10 @@ RecordLayout layout_of(const std::filesystem::path& path, const PlyHeader& heade
   layout.smoothing_length = finder.find(choice.smoothing_length, {"smoothing_length"});
   layout.mass = finder.find(choice.mass, {"mass"});
   if (!choice.quantity.empty()) layout.quantity = finder.find(choice.quantity, {});
+  for (const std::string& wanted : names_in_condition(choice)) {
+    const int field = index_of_name(finder.names(), wanted);
+    layout.named.push_back(field < 0 ? std::nullopt : std::optional(finder.fields()[static_cast<std::size_t>(field)]));
+  }
   std::array<std::optional<RecordField>, 3> colour{finder.find({"red", "r", "diffuse_red"}),
                                                    finder.find({"green", "g", "diffuse_green"}),
                                                    finder.find({"blue", "b", "diffuse_blue"})};
@@ -170,6 +174,8 @@ struct AsciiVertices {
       cloud.smoothing_length.push_back(in_single_precision(value(row, *layout.smoothing_length)));
     if (layout.mass) cloud.mass.push_back(in_single_precision(value(row, *layout.mass)));
     if (layout.quantity) cloud.quantity.push_back(in_single_precision(value(row, *layout.quantity)));
+    for (std::size_t i = 0; i < layout.named.size(); ++i)
+      if (layout.named[i]) rows.named[i].values.push_back(value(row, *layout.named[i]));
     if (layout.colour) {
       const auto byte = [&](std::size_t channel) {
         return static_cast<std::uint8_t>(std::clamp(value(row, (*layout.colour)[channel]), 0., 255.));
@@ -179,6 +185,7 @@ struct AsciiVertices {
   }
   ParticleRows next(std::size_t most) {
     ParticleRows rows;
+    rows.named.resize(layout.named.size());
     std::vector<double> row(properties);
     for (; left > 0 && rows.size() < most; --left) {
       for (double& number : row)
@@ -200,6 +207,8 @@ CloudSource open_ascii(const std::filesystem::path& path, const PlyHeader& heade
   for (RecordField& field : layout.position) number_of(field);
   for (auto* field : {&layout.density, &layout.temperature, &layout.smoothing_length, &layout.mass, &layout.quantity})
     if (*field) number_of(**field);
+  for (std::optional<RecordField>& field : layout.named)
+    if (field) number_of(*field);
   if (layout.colour)
     for (RecordField& field : *layout.colour) number_of(field);
   vertices->path = path;
@@ -214,7 +223,7 @@ CloudSource open_ascii(const std::filesystem::path& path, const PlyHeader& heade
     refuse(path, fmt::format("is cut short: its header says {} vertices", header.vertices));
   CloudSource source{.format = "PLY ascii", .count = header.vertices, .fields = finder.names()};
   source.bytes = std::filesystem::file_size(path);
-  give_rows([vertices](std::size_t most, ParticleRows& rows) { rows = vertices->next(most); }, choice.origin, source);
+  give_rows([vertices](std::size_t most, ParticleRows& rows) { rows = vertices->next(most); }, path, choice, source);
   return source;
 }
 

@@ -80,6 +80,12 @@ struct Chunk {
     column.resize(count);
     for (std::size_t i = 0; i < count; ++i) column[i] = in_single_precision(value(*field, i));
   }
+  QuantityColumn named(const std::optional<RecordField>& field) const {
+    if (!field) return {};
+    QuantityColumn column{std::vector<double>(count), field->is_single_precision()};
+    for (std::size_t i = 0; i < count; ++i) column.values[i] = value(*field, i);
+    return column;
+  }
 };
 
 ParticleRows rows_of(const Chunk& chunk) {
@@ -96,6 +102,7 @@ ParticleRows rows_of(const Chunk& chunk) {
   chunk.put(layout.smoothing_length, cloud.smoothing_length);
   chunk.put(layout.mass, cloud.mass);
   chunk.put(layout.quantity, cloud.quantity);
+  for (const std::optional<RecordField>& field : layout.named) rows.named.push_back(chunk.named(field));
   if (layout.colour) {
     const auto byte = [&](const RecordField& field, std::size_t i) {
       const double value = chunk.value(field, i);
@@ -128,6 +135,8 @@ std::size_t columns_of(const RecordLayout& layout) {
   for (const auto* field :
        {&layout.density, &layout.temperature, &layout.smoothing_length, &layout.mass, &layout.quantity})
     if (*field) note(**field);
+  for (const std::optional<RecordField>& field : layout.named)
+    if (field) note(*field);
   return most;
 }
 
@@ -188,7 +197,7 @@ CloudSource open_records(const RecordLayout& layout, const std::string& format, 
   reading->file.open(layout.path, std::ios::binary);
   CloudSource source{.format = format, .count = layout.count, .fields = std::move(fields)};
   source.bytes = length;
-  give_rows([reading](std::size_t most, ParticleRows& rows) { rows = read_some(*reading, most); }, choice.origin,
+  give_rows([reading](std::size_t most, ParticleRows& rows) { rows = read_some(*reading, most); }, layout.path, choice,
             source);
   source.skip = [reading](std::size_t most) {
     const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(most, reading->layout.count - reading->at));

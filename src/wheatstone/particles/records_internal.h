@@ -24,6 +24,10 @@ struct RecordField {
   NumberType type = NumberType::f32;
   double scale = 1;
   double offset = 0;
+
+  bool is_single_precision() const {
+    return (type == NumberType::f16 || type == NumberType::f32) && scale == 1 && offset == 0;
+  }
 };
 
 /// Particles as records of one size, one after the other, or column after column.
@@ -36,11 +40,12 @@ struct RecordLayout {
   std::uint64_t column_bytes = 0;  ///< not 0: columns of so many bytes each; a field's `at` is its column's number
   std::array<RecordField, 3> position;
   std::optional<RecordField> density, temperature, smoothing_length, mass, quantity;
+  std::vector<std::optional<RecordField>> named;  ///< of CloudChoice::where; nothing where the file has no such field
   std::optional<std::array<RecordField, 3>> colour;  ///< 0..255 after scaling
 };
 
 /// Checks that the file is as long as its header says, and gives its particles. `format` and `fields` are for people;
-/// of the choice, the origin counts.
+/// of the choice, the origin and the condition count.
 /// Throws Error{bad_input}.
 CloudSource open_records(const RecordLayout& layout, const std::string& format, std::vector<std::string> fields,
                          const CloudChoice& choice);

@@ -1,11 +1,19 @@
 #include "wheatstone/particles/select.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string_view>
 #include <tuple>
+#include <utility>
 #include <vector>
 
+#include "wheatstone/error.h"
 #include "wheatstone/particles/all_of_column.h"
+#include "wheatstone/particles/columns_internal.h"
 
 namespace wheatstone {
 namespace {
@@ -73,11 +81,14 @@ void stand_for(Cloud& cloud, std::uint64_t every) {
   for (float& length : cloud.smoothing_length) length *= wider;
 }
 
+bool all_chosen(const Cloud& cloud) { return std::ranges::find(cloud.chosen, std::uint8_t{0}) == cloud.chosen.end(); }
+
 bool keeps_all(const Cloud& cloud, const Selection& selection) {
   constexpr float infinite = std::numeric_limits<float>::infinity();
-  return selection.every <= 1 && selection.cut.index() == 0 && all_between(cloud.x, -infinite, infinite) &&
-         all_between(cloud.y, -infinite, infinite) && all_between(cloud.z, -infinite, infinite) &&
-         all_between(cloud.mass, -1e-45f, infinite) && all_between(cloud.quantity, -infinite, infinite);
+  return all_chosen(cloud) && selection.every <= 1 && selection.cut.index() == 0 &&
+         all_between(cloud.x, -infinite, infinite) && all_between(cloud.y, -infinite, infinite) &&
+         all_between(cloud.z, -infinite, infinite) && all_between(cloud.mass, -1e-45f, infinite) &&
+         all_between(cloud.quantity, -infinite, infinite);
 }
 
 template <class Value>
@@ -87,7 +98,76 @@ void keep(std::vector<Value>& column, const std::vector<std::uint32_t>& kept) {
   column.resize(kept.size());
 }
 
+void keep_rows(Cloud& cloud, const std::vector<std::uint32_t>& kept) {
+  if (kept.size() < cloud.size()) std::apply([&](auto&... column) { (keep(column, kept), ...); }, columns_of(cloud));
+}
+
+/// A column that clouds have, by the name that files may have for it.
+struct OwnColumn {
+  std::string_view name;
+  std::vector<float> Cloud::*column;
+  int axis = -1;  ///< of a position
+};
+constexpr std::array<OwnColumn, 8> own_columns{{{"x", &Cloud::x, 0},
+                                                {"y", &Cloud::y, 1},
+                                                {"z", &Cloud::z, 2},
+                                                {"density", &Cloud::density},
+                                                {"temperature", &Cloud::temperature},
+                                                {"smoothing_length", &Cloud::smoothing_length},
+                                                {"mass", &Cloud::mass},
+                                                {"quantity", &Cloud::quantity}}};
+
+/// A name without what writers of files do as they like: "smoothinglength" of "SmoothingLength" and "smoothing_length".
+std::string plain_name(std::string_view name) {
+  std::string plain = lower_case(std::string(name));
+  std::erase_if(plain, [](char c) { return c == '_' || c == '-'; });
+  return plain;
+}
+
+/// The cloud's own column of that name; an empty one where it has none.
+QuantityColumn own_column(const Cloud& cloud, const std::string& name) {
+  const auto* const own =
+      std::ranges::find(own_columns, plain_name(name), [](const OwnColumn& column) { return plain_name(column.name); });
+  if (own == own_columns.end()) return {};
+  const double origin = own->axis < 0 ? 0 : cloud.origin[static_cast<std::size_t>(own->axis)];
+  const std::vector<float>& column = cloud.*(own->column);
+  QuantityColumn made{std::vector<double>(column.size()), origin == 0};
+  std::ranges::transform(column, made.values.begin(), [origin](float value) { return value + origin; });
+  return made;
+}
+
+[[noreturn]] void refuse_quantity(const Cloud& cloud, const std::string& wanted, const std::string& name,
+                                  std::span<const std::string> fields) {
+  std::vector<std::string> known(fields.begin(), fields.end());
+  for (const OwnColumn& own : own_columns) {
+    const bool told = std::ranges::any_of(
+        fields, [&](const std::string& field) { return plain_name(field) == plain_name(own.name); });
+    if (!told && !(cloud.*(own.column)).empty()) known.emplace_back(own.name);
+  }
+  throw Error(ErrorKind::bad_input,
+              fmt::format("{}: has no quantity '{}', but {}", name, wanted, fmt::join(known, ", ")));
+}
+
 }  // namespace
+
+void mark_chosen(Cloud& cloud, const Condition& where, std::vector<QuantityColumn> of_file, const std::string& name,
+                 std::span<const std::string> fields) {
+  if (cloud.size() == 0) return;
+  of_file.resize(where.names.size());
+  for (std::size_t i = 0; i < of_file.size(); ++i) {
+    if (of_file[i].values.empty()) of_file[i] = own_column(cloud, where.names[i]);
+    if (of_file[i].values.empty()) refuse_quantity(cloud, where.names[i], name, fields);
+  }
+  cloud.chosen = where_holds(where, of_file, cloud.size());
+}
+
+void keep_chosen(Cloud& cloud) {
+  std::vector<std::uint32_t> kept;
+  for (std::size_t i = 0; i < cloud.chosen.size(); ++i)
+    if (cloud.chosen[i] != 0) kept.push_back(static_cast<std::uint32_t>(i));
+  if (!cloud.chosen.empty()) keep_rows(cloud, kept);
+  cloud.chosen.clear();
+}
 
 SelectionCounts select_particles(Cloud& cloud, const Selection& selection, std::uint64_t first) {
   SelectionCounts counts;
@@ -95,6 +175,10 @@ SelectionCounts select_particles(Cloud& cloud, const Selection& selection, std::
   std::vector<std::uint32_t> kept;
   const bool all = keeps_all(cloud, selection);
   for (std::size_t i = 0; !all && i < cloud.size(); ++i) {
+    if (!cloud.chosen.empty() && cloud.chosen[i] == 0) {
+      ++counts.unchosen;
+      continue;
+    }
     if (!std::isfinite(cloud.x[i]) || !std::isfinite(cloud.y[i]) || !std::isfinite(cloud.z[i])) {
       ++counts.dropped;
       continue;
@@ -110,9 +194,8 @@ SelectionCounts select_particles(Cloud& cloud, const Selection& selection, std::
       continue;
     kept.push_back(static_cast<std::uint32_t>(i));
   }
-  if (!all && kept.size() < cloud.size()) {
-    std::apply([&](auto&... column) { (keep(column, kept), ...); }, columns_of(cloud));
-  }
+  if (!all) keep_rows(cloud, kept);
+  cloud.chosen.clear();
   if (selection.every > 1) stand_for(cloud, selection.every);
   mend(cloud.density, counts);
   mend(cloud.temperature, counts);

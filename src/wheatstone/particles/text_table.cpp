@@ -135,6 +135,8 @@ void add_row(const Table& table, const std::vector<double>& row, ParticleRows& r
   put(chosen.smoothing_length, rows.others.smoothing_length);
   put(chosen.mass, rows.others.mass);
   put(chosen.quantity, rows.others.quantity);
+  for (std::size_t i = 0; i < chosen.named.size(); ++i)
+    if (chosen.named[i] >= 0) rows.named[i].values.push_back(row[chosen.named[i]]);
   if (std::ranges::min(chosen.colour) >= 0) rows.others.colour.push_back(colour_of(row, chosen.colour));
 }
 
@@ -160,6 +162,7 @@ void parse_row(const Table& table, std::string_view text, std::vector<double>& r
 
 ParticleRows read_rows(Table& table, std::size_t most) {
   ParticleRows rows;
+  rows.named.resize(table.chosen.named.size());
   std::vector<double> row;
   std::string text;
   while (rows.size() < most && table.read_line(text)) {
@@ -179,7 +182,7 @@ CloudSource open_text_table(const std::filesystem::path& path, const CloudChoice
   table->chosen = choose_columns(table->path, table->names, choice);
   CloudSource source{.format = "text", .fields = table->names, .units = table->units};
   source.bytes = std::filesystem::file_size(path);
-  give_rows([table](std::size_t most, ParticleRows& rows) { rows = read_rows(*table, most); }, choice.origin, source);
+  give_rows([table](std::size_t most, ParticleRows& rows) { rows = read_rows(*table, most); }, path, choice, source);
   return source;
 }
 
