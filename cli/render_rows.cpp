@@ -74,6 +74,25 @@ Value selected_region(Cut& cut) {
   });
 }
 
+/// "gas=FFB347:6,stars=FFFFFF".
+std::vector<TypeColour> parse_type_colours(const std::string& option, const std::string& words) {
+  std::vector<TypeColour> types;
+  std::string_view rest = words;
+  while (true) {
+    const std::string_view one = rest.substr(0, rest.find(','));
+    const std::size_t sign = one.find('='), colon = std::min(one.find(':', sign), one.size());
+    if (sign == std::string_view::npos || sign == 0)
+      throw Error(ErrorKind::wrong_usage,
+                  fmt::format("{}: is '{}', expected TYPE=COLOUR,... as gas=FFB347:6,stars=FFFFFF", option, words));
+    TypeColour& type = types.emplace_back();
+    type.type = one.substr(0, sign);
+    type.colour = parse_colour(option, one.substr(0, colon).substr(sign + 1));
+    if (colon < one.size()) type.light = static_cast<float>(parse_number(option, one.substr(colon + 1), {1e-3, 1e6}));
+    if (one.size() == rest.size()) return types;
+    rest.remove_prefix(one.size() + 1);
+  }
+}
+
 Value condition(std::optional<Condition>& where) {
   return parsed(
       where, [](const std::string& option, const std::string& words) { return parse_condition(words, option); },
@@ -176,6 +195,12 @@ Rows particle_rows(RenderArguments& a) {
       "Particles",
       {row("--type", text(choice.type),
            "Particle type of a GADGET snapshot: gas, halo, disk, bulge, stars, bndry or 0 to 5; gas by default"),
+       row("--type-colours", parsed(choice.type_colours, parse_type_colours, "TYPE=COLOUR,..."),
+           "Draw several types of a GADGET snapshot, each in a colour of its own: gas=FFB347:6,halo=3B5BDB; a number "
+           "multiplies the light that a type's mass gives",
+           {when([&a] { return !a.options.quantity.empty(); },
+                 "with --quantity; the colours are those of numbers, not of types")},
+           {}, {"--type"}),
        row("--position", text(choice.position), "Dataset or columns of the positions: /Coordinates, or x,y,z"),
        row("--density", text(choice.density), "Dataset or column of the density"),
        row("--temperature", text(choice.temperature), "Dataset or column of the temperature, which sets the colours"),
@@ -269,13 +294,15 @@ Rows look_rows(RenderArguments& a) {
 
 Rows colour_rows(RenderArguments& a) {
   Appearance& appearance = a.options.appearance;
-  const Reasons reasons{beside_particles(a),
+  const Reason types = when([&a] { return !a.options.choice.type_colours.empty(); },
+                            "with --type-colours; each type has a colour of its own");
+  const Reasons reasons{beside_particles(a), types,
                         when([&a] { return !a.options.quantity.empty(); },
                              "with --quantity; the colours are those of --colours between --least and --most")};
   return {
       row("--colours", text(appearance.colour_map),
           "Colour map: inferno, magma, plasma, viridis, cividis, turbo, twilight, hot, jet, bone",
-          {beside_particles(a)}),
+          {beside_particles(a), types}),
       row("--cold", parsed(appearance.cold, parse_colour), "Colour of the coldest particles", reasons, {},
           {"--colours"}),
       row("--hot", parsed(appearance.hot, parse_colour), "Colour of the hottest particles", reasons, {}, {"--colours"}),
@@ -401,7 +428,13 @@ Rows method_rows(RenderArguments& a) {
            "Also write the views as numbers with their units, of a model its depth: FILE.fits, .exr or .npy; of "
            "several "
            "views, FILE_000.fits and so on",
-           {slices, on_film(a), with_look_thesis(a)}),
+           {slices, on_film(a), with_look_thesis(a),
+            when(
+                [&a] {
+                  return std::ranges::any_of(a.options.choice.type_colours,
+                                             [](const TypeColour& type) { return type.light != 1; });
+                },
+                "with --type-colours that multiply light; the values are sums of mass")}),
        row("--save-slices", output_name(a.save_slices), "Also write the depth planes: FILE.exr", {on_model(a)}),
        row("--format", picture_format(a.format), "File format of the views or the quilt", {on_film(a)}, {},
            {"--interleave"})});

@@ -228,6 +228,13 @@ class FromTheCommandLine(InFolder):
         self.assertEqual(mean.units, "Gyr")
         self.assertTrue(0 <= np.nanmin(mean.values) <= np.nanmax(mean.values) <= 49)
 
+    def test_types_of_particles_have_colours(self):
+        views = wheatstone.render(self.folder / "u.hdf5", type_colours={"gas": "FF0000"}, size=(64, 36))
+        self.assertGreater(views[..., 0].max(), 100)
+        self.assertEqual(views[..., 1:].max(), 0)
+        with self.assertRaisesRegex(ValueError, "several colours"):
+            wheatstone.render(self.folder / "u.hdf5", type_colours="gas=FF0000,0=00FF00")
+
     def test_conditions_choose_from_files_and_arrays(self):
         options = {"size": (64, 36), "views": 1}
         where = "x > 50000 and Density < 1e-7"

@@ -46,6 +46,8 @@ def _words_of_one(name, value):
         return ["true" if value else "false"]
     if name == "depth_mapping" and not isinstance(value, str):
         return [",".join(":".join(_word(name, number) for number in pair) for pair in value)]
+    if name == "type_colours" and isinstance(value, dict):
+        return [",".join(f"{_arguments.text(name, kind)}={_arguments.text(name, colour)}" for kind, colour in value.items())]
     if isinstance(value, (tuple, list, np.ndarray)):
         return [",".join(_word(name, number) for number in value)]
     return [_word(name, value)]

@@ -198,6 +198,7 @@ std::vector<WithoutEffect> options_without_effect() {
        {{"--type", "gas"},
         {"--subsample", "2"},
         {"--where", "x > 1"},
+        {"--type-colours", "gas=FFB347"},
         {"--opacity", "1"},
         {"--opaque"},
         {"--size", "64x48"},

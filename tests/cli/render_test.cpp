@@ -3,9 +3,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cstring>
 #include <nlohmann/json.hpp>
+#include <numeric>
 
 #include "cli/run_program.h"
+#include "shared_data.h"
 #include "wheatstone/pictures/disparity_file.h"
 #include "wheatstone/pictures/read_image.h"
 
@@ -123,6 +127,55 @@ TEST(RenderCommand, KeepsWhatAConditionHoldsForAndInfoCountsIt) {
   run_in(folder, {"render", "snap_%03d.hdf5", "--where", where, "--frames", "3", "--size", "64x36", "-o", "film.mp4"});
   expect_refused(folder, {"render", "snap_%03d.hdf5", "--where", "Density > 1e30", "--frames", "2", "-o", "no.mp4"}, 3,
                  "the condition (where) holds for none");
+}
+
+TEST(RenderCommand, DrawsTypesInTheirColours) {
+  const std::filesystem::path snapshot = shared_data() / "particles/gadget4_lcdm_gas_z0.hdf5";
+  if (!std::filesystem::exists(snapshot)) GTEST_SKIP() << "no " << snapshot;
+  const TemporaryFolder folder;
+  const auto render = [&](std::vector<std::string> line, const std::string& out) {
+    line.insert(line.begin(), {"render", snapshot, "--views", "1", "--size", "160x90", "--json", "-o", out});
+    return nlohmann::json::parse(run_in(folder, line).output);
+  };
+  const auto light = [&](const std::string& out) {
+    std::array<double, 3> sum{};
+    const Image<Rgb8> view = read_image(folder / (out + "/view_000.png"));
+    for (const Rgb8 pixel : view.pixels()) sum = {sum[0] + pixel.r, sum[1] + pixel.g, sum[2] + pixel.b};
+    return sum;
+  };
+  EXPECT_EQ(render({"--type-colours", "gas=FF0000,halo=00FF00"}, "both")["particles"], 65536);
+  const auto [gas, halo, none] = light("both");
+  EXPECT_GT(gas, 1e4);
+  EXPECT_GT(halo, gas);  // dark matter is heavier
+  EXPECT_EQ(none, 0);
+  render({"--type-colours", "gas=FF0000:30,halo=00FF00"}, "bright");
+  EXPECT_GT(light("bright")[0], light("bright")[1]);
+  render({"--type-colours", "halo=00FF00,gas=FF0000", "--stream", "--chunk", "5000"}, "stream");
+  EXPECT_GT(light("stream")[1], light("stream")[0]);
+  const auto mass_of = [&](const std::vector<std::string>& options) {
+    std::vector<std::string> line{"--values",     "v.npy", "--projection",
+                                  "orthographic", "--fit", "box:0,0,0,50000,50000,50000"};
+    line.insert(line.end(), options.begin(), options.end());
+    render(line, "v");
+    const std::string npy = bytes_of(folder / "v.npy");
+    std::vector<float> values(160 * 90);
+    const std::size_t bytes = values.size() * sizeof(float);
+    std::memcpy(values.data(), npy.data() + npy.size() - bytes, bytes);
+    return std::accumulate(values.begin(), values.end(), 0.);
+  };
+  const double all = mass_of({"--type-colours", "gas=FF0000,halo=00FF00"});
+  EXPECT_NEAR(mass_of({"--type", "gas"}) + mass_of({"--type", "halo"}), all, all * 1e-3);
+  const auto refused = [&](const std::string& colours, const std::string& words, int code = 2) {
+    expect_refused(folder, {"render", snapshot, "--type-colours", colours, "-o", "no"}, code, words);
+  };
+  refused("gas", "--type-colours: is 'gas', expected TYPE=COLOUR,...");
+  refused("gas=red", "--type-colours: is 'red', expected a colour");
+  refused("a:b=c", "expected a colour");
+  refused("gas=FF0000:0", "--type-colours: is '0', expected a number from 0.001");
+  refused("moon=FF0000", "the particle type is 'moon', expected gas");
+  refused("gas=FF0000,stars=00FF00", "has no particles of type 'stars'; by type it has 0: 32768, 1: 32768", 3);
+  expect_refused(folder, {"render", snapshot, "--type-colours", "gas=FF0000", "--cold", "FFFFFF", "-o", "no"}, 2,
+                 "--cold: has no effect with --type-colours");
 }
 
 TEST(RenderCommand, SlicesServeAnyRigLater) {

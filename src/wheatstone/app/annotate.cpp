@@ -41,11 +41,12 @@ int moved_px(const RenderedParticles& rendered, float behind_mm, std::size_t vie
 struct Placed {
   int left, top;
   Image<std::uint8_t> cover;
+  Rgb8 colour = ink;
 };
 
 /// What is drawn into each view.
 struct Drawing {
-  std::vector<Placed> inked;  ///< letters and lines, which get a dark rim
+  std::vector<Placed> inked;  ///< letters, lines and colours of types, which get a dark rim
   int left = 0, top = 0;      ///< of the colours
   Image<Rgb8> colours;
 };
@@ -144,6 +145,29 @@ bool add_colours(const RenderedParticles& rendered, const Image<Rgb8>& view, con
   return true;
 }
 
+/// The types of particles at the lower right, each beside its colour; false where they do not fit.
+bool add_types(const RenderedParticles& rendered, const Image<Rgb8>& view, const Measures& measures, Drawing& drawing) {
+  std::vector<std::string> names;
+  for (const TypeColour& type : rendered.types) names.push_back(type.type);
+  std::vector<Image<std::uint8_t>> labels = set_labels(names, measures.letters);
+  int widest = 0, height = 0;
+  for (const Image<std::uint8_t>& label : labels) {
+    widest = std::max(widest, label.width());
+    height = std::max(height, label.height());
+  }
+  const int count = static_cast<int>(labels.size()), swatch = measures.letters;
+  const int left = view.width() - measures.side - widest - swatch * 3 / 2;
+  const int top = view.height() - measures.margin - count * height;
+  if (left < view.width() / 2 || top < view.height() / 2) return false;
+  for (int i = 0; i < count; ++i) {
+    const auto type = static_cast<std::size_t>(i);
+    const int y = top + i * height;
+    drawing.inked.push_back({left, y + (height - swatch) / 2, filled(swatch, swatch), rendered.types[type].colour});
+    drawing.inked.push_back({left + swatch * 3 / 2, y, std::move(labels[type])});
+  }
+  return true;
+}
+
 /// The redshift at the upper left, and the title in the middle, below the redshift where they would meet; false where
 /// the title does not fit.
 bool add_words(const RenderedParticles& rendered, const std::string& title, const Image<Rgb8>& view,
@@ -168,7 +192,8 @@ void draw(const Drawing& drawing, const std::vector<Placed>& rims, int moved, Im
   for (const Placed& rim : rims) lay_cover(rim.cover, rim.left + moved, rim.top, shade, view);
   for (int y = 0; y < drawing.colours.height(); ++y)
     std::ranges::copy(drawing.colours.row(y), view.row(drawing.top + y).begin() + drawing.left + moved);
-  for (const Placed& placed : drawing.inked) lay_cover(placed.cover, placed.left + moved, placed.top, ink, view);
+  for (const Placed& placed : drawing.inked)
+    lay_cover(placed.cover, placed.left + moved, placed.top, placed.colour, view);
 }
 
 }  // namespace
@@ -206,10 +231,13 @@ std::vector<std::string> annotate(const RenderedParticles& rendered, std::span<I
   };
   if (!add_scale(rendered, view, measures, drawing)) too_small("scale bar");
   const ToneSettings& tone = rendered.rendered.tone;
-  if (tone.look != Look::mass || tone.shown == Shown::colours)
+  if (!rendered.types.empty()) {
+    if (!add_types(rendered, view, measures, drawing)) too_small("list of types");
+  } else if (tone.look != Look::mass || tone.shown == Shown::colours) {
     notes.emplace_back("no colour bar: colours do not stand for numbers, as they do with --look mass and --quantity");
-  else if (!add_colours(rendered, view, measures, drawing))
+  } else if (!add_colours(rendered, view, measures, drawing)) {
     too_small("colour bar");
+  }
   if (!add_words(rendered, annotation.title, view, measures, drawing)) too_small("title");
   std::vector<Placed> rims;
   for (const Placed& placed : drawing.inked) rims.push_back(rim_of(placed, std::max(measures.letters / 10, 1)));

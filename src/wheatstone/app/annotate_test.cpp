@@ -149,6 +149,16 @@ TEST(Annotate, IsReadOnLightPlaces) {
   EXPECT_GT(std::ranges::count(light[0].pixels(), Rgb8{0, 0, 0}), 500);
 }
 
+TEST(Annotate, NamesTypesBesideTheirColours) {
+  RenderedParticles types = rendered(Stretch::asinh, false);
+  types.types = {{"gas", {200, 100, 0}}, {"halo", {0, 100, 200}}};
+  std::vector<Image<Rgb8>> views{Image<Rgb8>(640, 360)};
+  EXPECT_THAT(annotate(types, views), IsEmpty());
+  for (const TypeColour& type : types.types) EXPECT_GE(std::ranges::count(views[0].pixels(), type.colour), 100);
+  views = {Image<Rgb8>(640, 30)};
+  EXPECT_THAT(annotate(types, views), testing::Contains(testing::HasSubstr("no list of types")));
+}
+
 TEST(Annotate, SaysWhatItLeavesOut) {
   std::vector<Image<Rgb8>> views{Image<Rgb8>(64, 48)};
   EXPECT_THAT(annotate(rendered(Stretch::log, false), views),

@@ -149,7 +149,7 @@ SelectionCounts for_each_chunk(const std::filesystem::path& file, const RenderPa
 /// Whether kernels or brightness need a density that the particles do not have.
 bool lacks_density(const Cloud& cloud, const RenderParticlesOptions& options) {
   const bool sized = options.appearance.look == Look::mass && !cloud.smoothing_length.empty();
-  return cloud.density.empty() && cloud.colour.empty() && !sized;
+  return cloud.density.empty() && !has_colours_of_file(cloud, options) && !sized;
 }
 
 }  // namespace
@@ -165,6 +165,10 @@ void put_quantity(Cloud& cloud, const std::filesystem::path& file, const std::st
   cloud.quantity = name == "temperature" ? cloud.temperature : cloud.density;
   if (cloud.quantity.empty() && cloud.size() > 0)
     throw Error(ErrorKind::bad_input, fmt::format("{}: has no {} to show", file.string(), name));
+}
+
+bool has_colours_of_file(const Cloud& cloud, const RenderParticlesOptions& options) {
+  return !cloud.colour.empty() && options.choice.type_colours.empty();
 }
 
 void check_positions(const std::filesystem::path& file, const Cloud& cloud) {

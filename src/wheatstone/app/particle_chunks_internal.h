@@ -16,6 +16,9 @@ namespace wheatstone {
 /// cloud has no such column.
 void put_quantity(Cloud& cloud, const std::filesystem::path& file, const std::string& quantity);
 
+/// Whether a file tells colours: such points lie on surfaces and need no density. Not so particles of several types.
+bool has_colours_of_file(const Cloud& cloud, const RenderParticlesOptions& options);
+
 /// Throws Error{bad_input} where a particle lies farther out than can be drawn.
 void check_positions(const std::filesystem::path& file, const Cloud& cloud);
 

@@ -113,6 +113,7 @@ RenderedParticles render_known(const KnownParticles& particles, const RenderPart
   result.mended = counts.mended;
   result.extreme = counts.extreme;
   result.has_mass = statistics.has_mass;
+  result.types = options.choice.type_colours;
   Staged staged = stage(options, statistics);
   RenderOptions rendering = options.rendering;
   show_quantity(options, statistics, staged.scene, rendering.tone);
@@ -192,7 +193,7 @@ ReadyParticles ready_particles(Cloud cloud, const std::filesystem::path& file, c
   ready.counts = select_particles(ready.cloud, options.selection);
   if (ready.cloud.size() == 0) refuse_nothing(file, options, ready.counts);
   check_positions(file, ready.cloud);
-  if (ready.cloud.density.empty() && ready.cloud.colour.empty()) {
+  if (ready.cloud.density.empty() && !has_colours_of_file(ready.cloud, options)) {
     estimate_density(ready.cloud, options.neighbours, progress, options.rendering.ranks);
     ready.density = DensitySource::neighbours;
   }

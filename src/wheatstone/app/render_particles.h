@@ -101,6 +101,7 @@ struct RenderedParticles {
   ShownUnits units;
   float least = 0, most = 0;  ///< where the brightness of what is shown begins and ends
   std::optional<double> redshift;
+  std::vector<TypeColour> types;  ///< that have colours of their own
   std::string format;
   std::uint64_t triangles = 0;   ///< of a model
   std::uint64_t degenerate = 0;  ///< triangles without an area, which were left out

@@ -257,6 +257,15 @@ TEST(Mass, MeanOfAQuantityIsWeightedByMass) {
   EXPECT_TRUE(std::isnan(values.mean(0, 0)));
 }
 
+TEST(Mass, OfParticlesWithColoursIsThatOfTheSameWithout) {
+  Cloud cloud = kernels(500);
+  const Image<float> plain = values_of(cloud, stage_of(cloud, 96, 64))[0].column;
+  cloud.colour.assign(cloud.size(), Rgb8{20, 60, 255});
+  Stage stage = stage_of(cloud, 96, 64);
+  ASSERT_EQ(stage.scene.splat_style.colour_source, ColourSource::own);
+  EXPECT_LT(mean_difference(binned(values_of(cloud, stage)[0].column, 4), binned(plain, 4)), 1e-4);
+}
+
 TEST(Mass, WaysOfRenderingAgree) {
   const Cloud cloud = kernels(20000);
   Stage stage = stage_of(cloud, 320, 180, 5);

@@ -253,6 +253,9 @@ std::vector<ViewValues> view_values(const Chunks& chunks, const CloudStatistics&
   const float unit = column_of_light(scene);
   Scene without_shine = scene;  // which is no mass
   without_shine.shine = {};
+  // Colours of particles are light of three channels, whose sums are no mass.
+  ColourSource& colours = without_shine.splat_style.colour_source;
+  if (colours == ColourSource::own) colours = ColourSource::density;
   const bool with_quantity = scene.splat_style.colour_source == ColourSource::quantity;
   std::vector<ViewValues> values;
   for (const ViewPosition view : rig.positions) {

@@ -121,9 +121,8 @@ void put_presence(const MatchedParticles& matched, const Moment& moment, Cloud& 
   const std::size_t both = matched.both.size(), gone = matched.only_earlier.size();
   if (both == cloud.size()) return;
   const auto appeared = static_cast<float>(moment.eased());
-  cloud.presence.assign(cloud.size(), appeared);
-  std::fill_n(cloud.presence.begin(), both, 1.f);
-  std::fill_n(cloud.presence.begin() + static_cast<std::ptrdiff_t>(both), gone, 1 - appeared);
+  cloud.presence.resize(cloud.size(), 1.f);
+  for (std::size_t i = both; i < cloud.size(); ++i) cloud.presence[i] *= i < both + gone ? 1 - appeared : appeared;
 }
 
 }  // namespace
@@ -183,8 +182,8 @@ Cloud cloud_between(const TimedCloud& earlier, const TimedCloud& later, const Ma
   put_positions(axis(0, &Cloud::x, &Cloud::rate_x), matched, moment, cloud.x);
   put_positions(axis(1, &Cloud::y, &Cloud::rate_y), matched, moment, cloud.y);
   put_positions(axis(2, &Cloud::z, &Cloud::rate_z), matched, moment, cloud.z);
-  for (const auto column :
-       {&Cloud::density, &Cloud::temperature, &Cloud::smoothing_length, &Cloud::mass, &Cloud::quantity})
+  for (const auto column : {&Cloud::density, &Cloud::temperature, &Cloud::smoothing_length, &Cloud::mass,
+                            &Cloud::quantity, &Cloud::presence})
     put_column(before.*column, after.*column, matched, cloud.*column,
                [&](float a, float b) { return value_between(a, b, moment.share); });
   put_column(before.colour, after.colour, matched, cloud.colour,

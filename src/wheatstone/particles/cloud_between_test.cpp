@@ -58,6 +58,11 @@ TEST(CloudBetween, FadesParticlesThatOneSnapshotLacks) {
   EXPECT_THAT(cloud.x, ElementsAre(100, 208, 276));
   EXPECT_THAT(cloud.presence, ElementsAre(1, FloatNear(0.84375f, 1e-6f), FloatNear(0.15625f, 1e-6f)));
   EXPECT_TRUE(between(earlier, earlier, 0).presence.empty());
+  // Particles that give more light fade from it.
+  TimedCloud bright = earlier, later_too = later;
+  bright.cloud.presence = later_too.cloud.presence = {3, 2};
+  EXPECT_THAT(between(bright, later_too, 1).presence,
+              ElementsAre(3, FloatNear(2 * 0.84375f, 1e-6f), FloatNear(2 * 0.15625f, 1e-6f)));
   // Of a snapshot of which no particle was chosen, the other's keep what they have.
   TimedCloud full = later;
   full.cloud.density = {5, 6};

@@ -13,6 +13,7 @@
 #include "wheatstone/files/whole_file.h"
 #include "wheatstone/particles/columns_internal.h"
 #include "wheatstone/particles/formats_internal.h"
+#include "wheatstone/particles/snapshot_internal.h"
 
 namespace wheatstone {
 namespace {
@@ -115,6 +116,7 @@ bool holds_particles(const std::filesystem::path& path) {
 }
 
 CloudSource open_cloud(const std::filesystem::path& path, const CloudChoice& choice) {
+  if (!choice.type_colours.empty()) return open_types(path, choice);
   CloudChoice with_type = choice;
   if (choice.type.empty()) with_type.type = "gas";
   CloudSource source = open_by_content(path, with_type);

@@ -15,12 +15,23 @@
 
 namespace wheatstone {
 
+/// The colour of all particles of a type; types as in CloudChoice::type.
+struct TypeColour {
+  std::string type;
+  Rgb8 colour;
+  float light = 1;  ///< that they give, as a multiple of what their mass gives (Cloud::presence)
+  friend bool operator==(const TypeColour&, const TypeColour&) = default;
+};
+
 /// What of a file becomes the cloud. Names that are empty are found by the format's own conventions.
 struct CloudChoice {
-  std::string type;         ///< of a snapshot's particles: gas, halo, disk, bulge, stars, bndry, or 0..5; empty: gas
-  std::string position;     ///< name of the dataset or column ("/Coordinates"); "x,y,z" for three columns
-  std::string density;      ///< name of the dataset or column
-  std::string temperature;  ///< name of the dataset or column; any scalar
+  std::string type;  ///< of a snapshot's particles: gas, halo, disk, bulge, stars, bndry, or 0..5; empty: gas
+  /// Several types of a snapshot, one after the other, each in a colour of its own, in place of `type`. Of densities,
+  /// temperatures, smoothing lengths and masses only those are read that all of them have.
+  std::vector<TypeColour> type_colours;
+  std::string position;          ///< name of the dataset or column ("/Coordinates"); "x,y,z" for three columns
+  std::string density;           ///< name of the dataset or column
+  std::string temperature;       ///< name of the dataset or column; any scalar
   std::string smoothing_length;  ///< name of the dataset or column
   std::string mass;              ///< name of the dataset or column
   /// Name of a dataset or column that becomes Cloud::quantity. Of a vector, its length; with "-x", "-y" or "-z" behind

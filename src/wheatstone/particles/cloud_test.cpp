@@ -76,6 +76,10 @@ TEST(Select, EveryNthHasTheMassOfAll) {
   select_particles(heavy, {.every = 8});
   EXPECT_THAT(heavy.mass, ElementsAre(16));
   EXPECT_THAT(heavy.smoothing_length, ElementsAre(1));
+  Cloud bright = points({0, 1, 2, 3});
+  bright.presence = {5, 5, 5, 5};
+  select_particles(bright, {.every = 2});
+  EXPECT_THAT(bright.presence, ElementsAre(10, 10));
   Cloud without_mass = points({0, 1, 2, 3, 4, 5});
   select_particles(without_mass, {.every = 3});
   EXPECT_THAT(without_mass.presence, ElementsAre(3, 3));

@@ -391,6 +391,43 @@ TEST(GadgetBinary, JoinsPartsAndNamesTheMissingOne) {
   expect_error(ErrorKind::bad_input, "99 particles, but there are only 2", [&] { read_cloud(folder / "more"); });
 }
 
+TEST(TypesOfASnapshot, FollowEachOtherWithColoursAndWhatAllOfThemHave) {
+  const TemporaryFolder folder;
+  write_whole_file(folder / "snap", gadget({.labelled = true}));
+  CloudChoice choice{.type_colours = {{"halo", {1, 2, 3}, 4}, {"0", {5, 6, 7}}}};
+  const Cloud cloud = read_cloud(folder / "snap", choice);
+  EXPECT_THAT(cloud.x, ElementsAre(7, 1, 4));
+  EXPECT_THAT(cloud.colour, ElementsAre(Rgb8{1, 2, 3}, Rgb8{5, 6, 7}, Rgb8{5, 6, 7}));
+  EXPECT_THAT(cloud.presence, ElementsAre(4, 1, 1));
+  EXPECT_THAT(cloud.mass, ElementsAre(0.5f, 0.5f, 0.5f));
+  EXPECT_TRUE(cloud.density.empty());
+  EXPECT_TRUE(cloud.smoothing_length.empty());
+  EXPECT_EQ(open_cloud(folder / "snap", choice).count, 3u);
+  EXPECT_THAT(read_cloud(folder / "snap", {.type_colours = {{"gas", {}}}}).density, ElementsAre(10, 20));
+  // Rows that are passed are the same as those that are read.
+  const CloudSource source = open_cloud(folder / "snap", choice);
+  EXPECT_EQ(source.skip(2), 1u);
+  EXPECT_THAT(source.next(1).x, ElementsAre(1));
+  EXPECT_THAT(source.next(5).x, ElementsAre(4));
+  EXPECT_EQ(source.next(5).size(), 0u);
+  choice.where = parse_condition("ID > 8");
+  EXPECT_THAT(read_cloud(folder / "snap", choice).chosen, ElementsAre(1, 0, 1));
+  choice.where = parse_condition("temperature > 8");
+  expect_error(ErrorKind::bad_input, "no quantity 'temperature', but POS, VEL",
+               [&] { read_cloud(folder / "snap", choice); });
+  expect_error(ErrorKind::bad_input, "for particles of type 'halo'", [&] { read_cloud(folder / "snap", choice); });
+  expect_error(ErrorKind::bad_input, "no particles of type 'stars'", [&] {
+    read_cloud(folder / "snap", {.type_colours = {{"gas", {}}, {"stars", {}}}});
+  });
+  expect_error(ErrorKind::wrong_usage, "type '0' has several colours", [&] {
+    read_cloud(folder / "snap", {.type_colours = {{"gas", {}}, {"0", {}}}});
+  });
+  write_whole_file(folder / "points.txt", "1 2 3\n");
+  expect_error(ErrorKind::wrong_usage, "expected a GADGET snapshot", [&] {
+    read_cloud(folder / "points.txt", {.type_colours = {{"gas", {}}}});
+  });
+}
+
 TEST(CloudSource, RefusesWhatIsNoFileOfParticles) {
   const TemporaryFolder folder;
   write_whole_file(folder / "empty", "");

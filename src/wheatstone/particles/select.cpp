@@ -76,7 +76,10 @@ bool counts_for_something(const Cloud& cloud, std::size_t i) {
 void stand_for(Cloud& cloud, std::uint64_t every) {
   const auto times = static_cast<float>(every);
   for (float& mass : cloud.mass) mass *= times;
-  if (cloud.mass.empty()) cloud.presence.assign(cloud.size(), times);
+  if (cloud.mass.empty()) {
+    cloud.presence.resize(cloud.size(), 1.f);
+    for (float& presence : cloud.presence) presence *= times;
+  }
   const auto wider = static_cast<float>(std::cbrt(static_cast<double>(every)));
   for (float& length : cloud.smoothing_length) length *= wider;
 }

@@ -47,6 +47,9 @@ struct SnapshotTime {
 /// As an open HDF5 snapshot tells it in its header and in the attributes of its datasets, which `group` holds.
 SnapshotTime snapshot_time(std::int64_t file, std::int64_t group);
 
+/// Opens the types of CloudChoice::type_colours as one cloud. Throws as open_cloud.
+CloudSource open_types(const std::filesystem::path& path, const CloudChoice& choice);
+
 CloudSource open_gadget_hdf5(const std::filesystem::path& path, const CloudChoice& choice);
 
 }  // namespace wheatstone

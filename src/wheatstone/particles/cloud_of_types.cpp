@@ -1,0 +1,104 @@
+// Several particle types of a snapshot as one cloud, each with a colour of its own.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "wheatstone/error.h"
+#include "wheatstone/particles/snapshot_internal.h"
+
+namespace wheatstone {
+namespace {
+
+/// Columns that not all types of particles have.
+constexpr std::array own_columns{&Cloud::density, &Cloud::temperature, &Cloud::smoothing_length, &Cloud::mass};
+
+/// One type after the other.
+struct TypesInTurn {
+  std::vector<CloudSource> sources;
+  std::vector<TypeColour> colours;
+  std::array<bool, own_columns.size()> of_all;  // whether every type has a column
+  bool some_light_changes = false;
+  std::size_t at = 0;
+
+  Cloud next(std::size_t most) {
+    for (; at < sources.size(); ++at) {
+      Cloud cloud = sources[at].next(most);
+      if (cloud.size() == 0) continue;
+      for (std::size_t column = 0; column < own_columns.size(); ++column)
+        if (!of_all[column]) (cloud.*own_columns[column]).clear();
+      cloud.colour.assign(cloud.size(), colours[at].colour);
+      if (some_light_changes) cloud.presence.assign(cloud.size(), colours[at].light);
+      return cloud;
+    }
+    return {};
+  }
+
+  void reuse(Cloud used) {
+    if (at < sources.size() && sources[at].reuse) sources[at].reuse(std::move(used));
+  }
+
+  std::size_t skip(std::size_t most) {
+    for (; at < sources.size(); ++at)
+      if (const std::size_t skipped = sources[at].skip ? sources[at].skip(most) : sources[at].next(most).size();
+          skipped > 0)
+        return skipped;
+    return 0;
+  }
+};
+
+/// The first particles of a type, which tell the columns that it has.
+Cloud first_of_type(const std::filesystem::path& path, const CloudChoice& choice) {
+  constexpr std::size_t tell_the_origin = 1000;
+  const CloudSource source = open_cloud(path, choice);
+  try {
+    return source.next(tell_the_origin);
+  } catch (const Error& error) {
+    throw Error(error.kind(), fmt::format("{}, for particles of type '{}'", error.what(), choice.type));
+  }
+}
+
+}  // namespace
+
+CloudSource open_types(const std::filesystem::path& path, const CloudChoice& choice) {
+  auto types = std::make_shared<TypesInTurn>();
+  types->of_all.fill(true);
+  CloudChoice of_type = choice;
+  of_type.type_colours.clear();
+  CloudSource source;
+  std::uint64_t count = 0;
+  std::set<int> numbers;
+  for (const TypeColour& type : choice.type_colours) {
+    if (!numbers.insert(snapshot_type(type.type)).second)
+      throw Error(ErrorKind::wrong_usage, fmt::format("the particle type '{}' has several colours", type.type));
+    of_type.type = type.type;
+    const Cloud first = first_of_type(path, of_type);
+    for (std::size_t column = 0; column < own_columns.size(); ++column)
+      types->of_all[column] = types->of_all[column] && !(first.*own_columns[column]).empty();
+    of_type.origin = first.origin;  // one for all types
+    CloudSource opened = open_cloud(path, of_type);
+    count += opened.count.value_or(0);
+    if (types->sources.empty()) {
+      source = opened;
+      source.fields.clear();
+    }
+    for (std::string& field : opened.fields)
+      if (std::ranges::find(source.fields, field) == source.fields.end()) source.fields.push_back(field);
+    types->sources.push_back(std::move(opened));
+    types->colours.push_back(type);
+    types->some_light_changes = types->some_light_changes || type.light != 1;
+  }
+  source.count = count;
+  source.next = [types](std::size_t most) { return types->next(most); };
+  source.reuse = [types](Cloud used) { types->reuse(std::move(used)); };
+  source.skip = [types](std::size_t most) { return types->skip(most); };
+  return source;
+}
+
+}  // namespace wheatstone
