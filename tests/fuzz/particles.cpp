@@ -20,7 +20,7 @@ struct ParticleReader {
 const ParticleReader& the_reader() {
   static const std::vector<ParticleReader> readers{
       {"fits", "SIMPLE  ="},
-      {"gadget_binary", "", {{}, {.type = "halo"}}},
+      {"gadget_binary", "", {{}, {.type = "halo"}, {.temperature = "RHO", .mass = "Z", .quantity = "ACCE-y"}}},
       {"gadget_hdf5", "\x89HDF\r\n\x1a\n"},
       {"hdf5_dataset", "\x89HDF\r\n\x1a\n", {{.position = "/PartType0/Coordinates", .density = "/PartType0/Density"}}},
       {"las", "LASF"},

@@ -362,6 +362,65 @@ TEST(GadgetBinary, ReadsBothFormatsInBothByteOrders) {
     }
 }
 
+/// What an entry of the record INFO says.
+void put_info(Bytes& info, const std::string& name, const std::string& kind, std::int32_t width,
+              std::array<std::int32_t, 6> types) {
+  info.put_text(name).put_text(kind).put(width);
+  for (const std::int32_t type : types) info.put(type);
+}
+
+TEST(GadgetBinary, FindsRecordsByName) {
+  const TemporaryFolder folder;
+  for (const bool big : {false, true}) {
+    Bytes more(big);
+    const auto block = [&](const std::string& label, const Bytes& data) {
+      more.put_record(Bytes(big).put_text(label).put(static_cast<std::uint32_t>(data.text.size() + 8)).text);
+      more.put_record(data.text);
+    };
+    block("ACCE", Bytes(big).put(1.f).put(2.f).put(2.f).put(0.f).put(3.f).put(4.f).put(5.f).put(0.f).put(0.f));
+    block("AGE ", Bytes(big).put(13.f));                                    // by its length, of the dark matter
+    block("NE  ", Bytes(big).put(1.f).put(0.f));                            // changes temperatures
+    block("Z   ", Bytes(big).put(0.5).put(0.25).put(0.125));                // by INFO, of both, in double precision
+    block("LEVL", Bytes(big).put<std::uint32_t>(6).put<std::uint32_t>(7));  // by INFO, whole numbers of the gas
+    block("ODD ", Bytes(big).put<std::uint16_t>(6));
+    Bytes info(big);
+    put_info(info, "Z   ", "DOUBLE  ", 1, {1, 1, 0, 0, 0, 0});
+    put_info(info, "POS ", "FLOAT   ", 1, {0, 0, 0, 0, 0, 0});  // which is not believed
+    put_info(info, "LEVL", "LONG    ", 1, {1, 0, 0, 0, 0, 0});
+    block("INFO", info);
+    write_whole_file(folder / "snap", gadget({.big = big, .labelled = true}) + more.text);
+    const auto shown = [&](const std::string& name, const std::string& type) {
+      return read_cloud(folder / "snap", {.type = type, .quantity = name}).quantity;
+    };
+    EXPECT_THAT(shown("ACCE", "gas"), ElementsAre(3, 5));
+    EXPECT_THAT(shown("acce-y", "gas"), ElementsAre(2, 3));
+    EXPECT_THAT(shown("ACCE-x", "halo"), ElementsAre(5));
+    EXPECT_THAT(shown("AGE", "halo"), ElementsAre(13));
+    EXPECT_THAT(shown("Z", "halo"), ElementsAre(0.125f));
+    EXPECT_THAT(shown("LEVL", "gas"), ElementsAre(6, 7));
+    EXPECT_THAT(shown("velocity", "gas"), ElementsAre(0, 0));
+    EXPECT_THAT(read_cloud(folder / "snap").temperature, ElementsAre(gas_temperature(100, 1), gas_temperature(200, 0)));
+    const Cloud named = read_cloud(
+        folder / "snap", {.density = "Z", .temperature = "rho", .mass = "U", .where = parse_condition("LEVL == 7")});
+    EXPECT_THAT(named.density, ElementsAre(0.5f, 0.25f));
+    EXPECT_THAT(named.temperature, ElementsAre(10, 20));
+    EXPECT_THAT(named.mass, ElementsAre(100, 200));
+    EXPECT_THAT(named.chosen, ElementsAre(0, 1));
+    EXPECT_THAT(open_cloud(folder / "snap").fields,
+                ElementsAre("POS", "VEL", "ID", "U", "RHO", "HSML", "ACCE", "AGE", "NE", "Z", "LEVL", "ODD"));
+    expect_error(ErrorKind::bad_input, "snap: has no record 'SFR', but POS, VEL, ID, U", [&] { shown("SFR", "gas"); });
+    expect_error(ErrorKind::bad_input, "record AGE has no numbers for particles of this type",
+                 [&] { shown("AGE", "gas"); });
+    expect_error(ErrorKind::bad_input, "record ODD has no numbers", [&] { shown("ODD", "gas"); });
+    expect_error(ErrorKind::bad_input, "Z has 1 numbers per row, but component y", [&] { shown("Z-y", "gas"); });
+    expect_error(ErrorKind::wrong_usage, "its record POS, but 'VEL' was requested",
+                 [&] { read_cloud(folder / "snap", {.position = "VEL"}); });
+  }
+  write_whole_file(folder / "snap", gadget({}));
+  expect_error(ErrorKind::wrong_usage, "of format 1 have no names, but 'RHO' was requested",
+               [&] { read_cloud(folder / "snap", {.density = "RHO"}); });
+}
+
 TEST(GadgetBinary, CutShortAnywhereIsRefused) {
   for (const bool labelled : {false, true}) {
     const std::string bytes = gadget({.labelled = labelled});

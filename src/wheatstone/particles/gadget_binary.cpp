@@ -1,21 +1,17 @@
-// GADGET's own binary snapshots, formats 1 and 2: Fortran records, each between two markers that say its length.
+// The particles of GADGET's own binary snapshots, formats 1 and 2.
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
-#include <bit>
-#include <cmath>
-#include <cstring>
 #include <fstream>
 #include <memory>
-#include <numeric>
+#include <optional>
 
 #include "wheatstone/error.h"
-#include "wheatstone/files/whole_file.h"
 #include "wheatstone/particles/columns_internal.h"
 #include "wheatstone/particles/formats_internal.h"
+#include "wheatstone/particles/gadget_blocks_internal.h"
 #include "wheatstone/particles/gas_temperature_internal.h"
 #include "wheatstone/particles/particle_rows_internal.h"
 #include "wheatstone/particles/snapshot_internal.h"
@@ -23,179 +19,50 @@
 namespace wheatstone {
 namespace {
 
-constexpr std::size_t particle_types = 6;
-constexpr std::uint32_t header_bytes = 256;
-constexpr std::uint32_t label_bytes = 8;
-
-template <class Number>
-Number decode(const char* from, bool swapped) {
-  std::array<char, sizeof(Number)> bytes;
-  std::memcpy(bytes.data(), from, sizeof(Number));
-  if (swapped) std::ranges::reverse(bytes);
-  return std::bit_cast<Number>(bytes);
+/// The numbers of `count` particles of a block from number `first` on.
+QuantityColumn read_numbers(const GadgetPart& part, std::ifstream& file, const GadgetBlock& block, std::uint64_t first,
+                            std::size_t count) {
+  const std::uint64_t numbers = part.particles(block) * block.width;
+  const std::uint64_t bytes = numbers == 0 ? 0 : block.bytes / numbers;
+  if ((bytes != 4 && bytes != 8) || bytes * numbers != block.bytes)
+    refuse_gadget(part,
+                  fmt::format("its record {} has {} bytes, expected {} numbers", block.name, block.bytes, numbers));
+  std::vector<char> raw(count * block.width * bytes);
+  file.seekg(static_cast<std::streamoff>(block.begin + first * block.width * bytes));
+  if (!file.read(raw.data(), static_cast<std::streamsize>(raw.size()))) refuse_gadget(part, "is cut short");
+  const auto decoded = [&](auto narrow, auto wide, std::size_t i) {
+    return bytes == 4 ? static_cast<double>(decode_gadget<decltype(narrow)>(raw.data() + 4 * i, part.swapped))
+                      : static_cast<double>(decode_gadget<decltype(wide)>(raw.data() + 8 * i, part.swapped));
+  };
+  QuantityColumn read{std::vector<double>(count * block.width), bytes == 4 && !block.whole};
+  for (std::size_t i = 0; i < read.values.size(); ++i)
+    read.values[i] = block.whole ? decoded(std::uint32_t{}, std::uint64_t{}, i) : decoded(float{}, double{}, i);
+  return read;
 }
 
-struct Block {
-  std::string name;
-  std::uint64_t begin = 0;
-  std::uint64_t bytes = 0;
+/// A record that a quantity names, and the component of its vectors; −1: their length.
+struct NamedBlock {
+  const GadgetBlock* block = nullptr;
+  int component = -1;
 };
 
-/// One file of a snapshot.
-struct BinaryPart {
-  std::string path;
-  std::uint64_t length = 0;
-  bool swapped = false;
-  bool labelled = false;
-  std::array<std::uint64_t, particle_types> count{}, total{};
-  std::array<double, particle_types> mass{};
-  double redshift = 0, box_size = 0;
-  int files = 1;
-  std::vector<Block> blocks;
-
-  std::uint64_t all() const { return std::accumulate(count.begin(), count.end(), std::uint64_t{0}); }
-  const Block* find(const std::string& name) const {
-    const auto found = std::ranges::find(blocks, name, &Block::name);
-    return found == blocks.end() ? nullptr : &*found;
-  }
-};
-
-[[noreturn]] void refuse(const BinaryPart& part, const std::string& what) {
-  throw Error(ErrorKind::bad_input, fmt::format("{}: {}", part.path, what));
+NamedBlock block_of_quantity(const GadgetPart& part, const std::string& wanted) {
+  if (const GadgetBlock* block = part.find(wanted)) return {block};
+  const QuantityName name = quantity_name(wanted);
+  return {part.find(lower_case(name.base) == "velocity" ? "VEL" : name.base), name.component};
 }
 
-std::uint32_t read_marker(const BinaryPart& part, std::ifstream& file) {
-  std::array<char, 4> bytes{};
-  if (!file.read(bytes.data(), bytes.size())) refuse(part, "is cut short, expected a record's marker");
-  return decode<std::uint32_t>(bytes.data(), part.swapped);
-}
-
-/// Steps over one record and says where its data is.
-Block step_over(const BinaryPart& part, std::ifstream& file) {
-  Block block;
-  block.bytes = read_marker(part, file);
-  block.begin = static_cast<std::uint64_t>(file.tellg());
-  if (block.bytes > part.length - block.begin)
-    refuse(part, fmt::format("is cut short: a record of {} bytes begins at byte {}, but {} are left", block.bytes,
-                             block.begin, part.length - block.begin));
-  file.seekg(static_cast<std::streamoff>(block.begin + block.bytes));
-  if (read_marker(part, file) != block.bytes)
-    refuse(part, fmt::format("is damaged: the record at byte {} has different markers", block.begin));
-  return block;
-}
-
-void read_header(BinaryPart& part, std::ifstream& file) {
-  const Block block = step_over(part, file);
-  if (block.bytes != header_bytes)
-    refuse(part, fmt::format("has a header of {} bytes, expected {}", block.bytes, header_bytes));
-  const auto after = file.tellg();
-  std::array<char, header_bytes> bytes{};
-  file.seekg(static_cast<std::streamoff>(block.begin));
-  file.read(bytes.data(), bytes.size());
-  file.seekg(after);
-  const bool swapped = part.swapped;
-  for (std::size_t type = 0; type < particle_types; ++type) {
-    part.count[type] = decode<std::uint32_t>(bytes.data() + 4 * type, swapped);
-    part.mass[type] = decode<double>(bytes.data() + 24 + 8 * type, swapped);
-    part.total[type] = decode<std::uint32_t>(bytes.data() + 96 + 4 * type, swapped) +
-                       (std::uint64_t{decode<std::uint32_t>(bytes.data() + 168 + 4 * type, swapped)} << 32);
-  }
-  part.redshift = decode<double>(bytes.data() + 80, swapped);
-  part.files = decode<std::int32_t>(bytes.data() + 124, swapped);
-  part.box_size = decode<double>(bytes.data() + 128, swapped);
-  if (part.files < 1 || part.files > 1'000'000) part.files = 1;
-  if (!std::isfinite(part.box_size) || part.box_size < 0) part.box_size = 0;
-}
-
-/// Without labels, records are known by their order: masses only where some type has none in the header.
-std::vector<std::string> usual_order(const BinaryPart& part) {
-  std::vector<std::string> names{"POS", "VEL", "ID"};
-  for (std::size_t type = 0; type < particle_types; ++type)
-    if (part.count[type] > 0 && part.mass[type] == 0) {
-      names.emplace_back("MASS");
-      break;
-    }
-  if (part.count[0] > 0) names.insert(names.end(), {"U", "RHO", "HSML"});
+std::vector<std::string> names_of(const GadgetPart& part) {
+  std::vector<std::string> names;
+  for (const GadgetBlock& block : part.blocks)
+    if (block.name != "INFO" && !block.name.empty()) names.push_back(block.name);
   return names;
 }
 
-void read_blocks(BinaryPart& part, std::ifstream& file) {
-  if (part.labelled) step_over(part, file);  // the header's label
-  read_header(part, file);
-  const std::vector<std::string> names = usual_order(part);
-  while (static_cast<std::uint64_t>(file.tellg()) < part.length) {
-    std::string name;
-    if (part.labelled) {
-      const Block label = step_over(part, file);
-      if (label.bytes != label_bytes) refuse(part, fmt::format("is damaged: no label at byte {}", label.begin));
-      const auto after = file.tellg();
-      name.resize(4);
-      file.seekg(static_cast<std::streamoff>(label.begin));
-      file.read(name.data(), 4);
-      file.seekg(after);
-      name.erase(name.find_last_not_of(' ') + 1);
-      if (static_cast<std::uint64_t>(after) >= part.length) break;
-    } else if (part.blocks.size() < names.size()) {
-      name = names[part.blocks.size()];
-    }
-    Block block = step_over(part, file);
-    block.name = name;
-    part.blocks.push_back(block);
-  }
-}
-
-BinaryPart open_part(const std::filesystem::path& path) {
-  check_plain_file(path, "a GADGET snapshot");
-  BinaryPart part{.path = path.string()};
-  std::ifstream file(path, std::ios::binary);
-  std::array<char, 4> first{};
-  file.read(first.data(), first.size());
-  if (!file) refuse(part, "cannot be read, expected a GADGET snapshot");
-  const auto native = decode<std::uint32_t>(first.data(), false);
-  part.swapped = native != header_bytes && native != label_bytes;
-  part.labelled = decode<std::uint32_t>(first.data(), part.swapped) == label_bytes;
-  part.length = std::filesystem::file_size(path);
-  file.seekg(0);
-  read_blocks(part, file);
-  return part;
-}
-
-/// A block as what it holds: `width` numbers for each of so many particles.
-struct BinaryColumn {
-  const Block& block;
-  std::uint64_t particles;
-  std::size_t width;
-};
-
-/// The numbers of `count` particles from number `first` on.
-std::vector<double> read_numbers(const BinaryPart& part, std::ifstream& file, const BinaryColumn& column,
-                                 std::uint64_t first, std::size_t count) {
-  const auto& [block, particles, width] = column;
-  const std::uint64_t numbers = particles * width;
-  const std::uint64_t bytes = numbers == 0 ? 0 : block.bytes / numbers;
-  if ((bytes != 4 && bytes != 8) || bytes * numbers != block.bytes)
-    refuse(part, fmt::format("its record {} has {} bytes, expected {} numbers", block.name, block.bytes, numbers));
-  std::vector<char> raw(count * width * bytes);
-  file.seekg(static_cast<std::streamoff>(block.begin + first * width * bytes));
-  if (!file.read(raw.data(), static_cast<std::streamsize>(raw.size()))) refuse(part, "is cut short");
-  std::vector<double> values(count * width);
-  if (block.name == "ID") {
-    for (std::size_t i = 0; i < values.size(); ++i)
-      values[i] = bytes == 4 ? static_cast<double>(decode<std::uint32_t>(raw.data() + 4 * i, part.swapped))
-                             : static_cast<double>(decode<std::uint64_t>(raw.data() + 8 * i, part.swapped));
-    return values;
-  }
-  for (std::size_t i = 0; i < values.size(); ++i)
-    values[i] = bytes == 4 ? static_cast<double>(decode<float>(raw.data() + 4 * i, part.swapped))
-                           : decode<double>(raw.data() + 8 * i, part.swapped);
-  return values;
-}
-
 struct BinaryReading {
-  std::vector<BinaryPart> parts;
+  std::vector<GadgetPart> parts;
   std::size_t type = 0;
-  QuantityName quantity;
-  std::vector<std::string> named;  // of CloudChoice::where
+  CloudChoice choice;
   std::size_t part = 0;
   std::uint64_t at = 0;
   std::ifstream file;
@@ -214,7 +81,7 @@ struct BinaryReading {
   ParticleRows next(std::size_t most) {
     const std::size_t count = ahead(most);
     if (count == 0) return {};
-    const BinaryPart& here = parts[part];
+    const GadgetPart& here = parts[part];
     if (!file.is_open()) file.open(here.path, std::ios::binary);
     ParticleRows rows = read(here, count);
     at += count;
@@ -227,81 +94,55 @@ struct BinaryReading {
     return count;
   }
 
-  ParticleRows read(const BinaryPart& here, std::size_t count) {
+  ParticleRows read(const GadgetPart& here, std::size_t count) {
     ParticleRows rows;
     Cloud& cloud = rows.others;
     cloud.box_size = here.box_size;
-    std::uint64_t before = at;
-    for (std::size_t lower = 0; lower < type; ++lower) before += here.count[lower];
-    put_positions(read_numbers(here, file, {*here.find("POS"), here.all(), 3}, before, count), 3, rows);
-    put_mass(here, count, cloud);
-    put_quantity(here, count, before, cloud);
-    put_named(here, count, before, rows);
-    if (type != 0) return rows;
-    const auto gas = [&](const char* name) {
-      const Block* block = here.find(name);
-      return block == nullptr ? std::vector<float>{}
-                              : in_single_precision(read_numbers(here, file, {*block, here.count[0], 1}, at, count));
-    };
-    cloud.temperature = gas("U");
-    for (float& value : cloud.temperature) value = gas_temperature(value);
-    cloud.density = gas("RHO");
-    cloud.smoothing_length = gas("HSML");
+    put_positions(read_record(here, *here.find("POS"), count).values, 3, rows);
+    cloud.density = column(here, choice.density, "RHO", count);
+    cloud.smoothing_length = column(here, choice.smoothing_length, "HSML", count);
+    put_temperature(here, count, cloud);
+    cloud.mass = column(here, choice.mass, "MASS", count);
+    if (choice.mass.empty() && here.mass[type] > 0) cloud.mass.assign(count, in_single_precision(here.mass[type]));
+    if (!choice.quantity.empty()) cloud.quantity = column(here, choice.quantity, "", count);
+    for (const std::string& name : names_in_condition(choice)) {
+      const NamedBlock named = block_of_quantity(here, name);
+      rows.named.push_back(named.block == nullptr ? QuantityColumn{}
+                                                  : read_record(here, *named.block, count, named.component));
+    }
     return rows;
   }
 
-  /// Masses stand in their record only for the types to which the header gives none.
-  void put_mass(const BinaryPart& here, std::size_t count, Cloud& cloud) {
-    if (here.mass[type] > 0) {
-      cloud.mass.assign(count, in_single_precision(here.mass[type]));
-      return;
-    }
-    std::uint64_t particles = 0;
-    std::uint64_t before = at;
-    for (std::size_t other = 0; other < particle_types; ++other) {
-      if (here.mass[other] > 0) continue;
-      if (other < type) before += here.count[other];
-      particles += here.count[other];
-    }
-    if (const Block* block = here.find("MASS"))
-      cloud.mass = in_single_precision(read_numbers(here, file, {*block, particles, 1}, before, count));
-  }
-
-  /// The numbers of a record of all particles, or of the gas, one for each of the next particles. `before` is the
-  /// number of the first among all.
-  QuantityColumn read_record(const BinaryPart& here, const Block& block, int component, std::size_t count,
-                             std::uint64_t before) {
-    const bool vector = block.name == "VEL" || block.name == "POS";
-    const bool of_all = vector || block.name == "ID" || block.name == "POT";
-    const std::size_t width = vector ? 3 : 1;
-    if (!of_all && type != 0) refuse(here, fmt::format("its record {} is of the gas only", block.name));
-    const BinaryColumn column{block, of_all ? here.all() : here.count[0], width};
-    QuantityColumn read{read_numbers(here, file, column, of_all ? before : at, count),
-                        block.name != "ID" && block.bytes == sizeof(float) * column.particles * width};
-    take_component(width, component, read.values);
+  /// The numbers of a record, one for each of the next particles; of vectors all, or a component, or with −1 the
+  /// length.
+  QuantityColumn read_record(const GadgetPart& here, const GadgetBlock& block, std::size_t count,
+                             std::optional<int> component = {}) {
+    if (!block.has[type])
+      refuse_gadget(here, fmt::format("its record {} has no numbers for particles of this type", block.name));
+    QuantityColumn read = read_numbers(here, file, block, at + here.particles(block, type), count);
+    if (!component) return read;
+    check_component(block.width, {block.name, *component}, here.path);
+    take_component(block.width, *component, read.values);
     return read;
   }
 
-  void put_quantity(const BinaryPart& here, std::size_t count, std::uint64_t before, Cloud& cloud) {
-    if (quantity.base.empty()) return;
-    const Block* block = here.find(quantity.base);
-    if (block == nullptr) {
-      std::vector<std::string_view> names;
-      for (const Block& other : here.blocks) names.emplace_back(other.name);
-      refuse(here, fmt::format("has no record '{}', but {}", quantity.base, fmt::join(names, ", ")));
-    }
-    cloud.quantity = in_single_precision(read_record(here, *block, quantity.component, count, before).values);
+  /// The record that the user named, or the usual one where these particles have it.
+  std::vector<float> column(const GadgetPart& here, const std::string& wanted, const char* usual, std::size_t count) {
+    NamedBlock named{here.find(usual)};
+    if (!wanted.empty()) named = block_of_quantity(here, wanted);
+    if (!wanted.empty() && named.block == nullptr)
+      refuse_gadget(here, fmt::format("has no record '{}', but {}", wanted, fmt::join(names_of(here), ", ")));
+    if (named.block == nullptr || (wanted.empty() && !named.block->has[type])) return {};
+    return in_single_precision(read_record(here, *named.block, count, named.component).values);
   }
 
-  /// What the user's condition asks for, where there is such a record.
-  void put_named(const BinaryPart& here, std::size_t count, std::uint64_t before, ParticleRows& rows) {
-    for (const std::string& wanted : named) {
-      QuantityName name = quantity_name(lower_case(wanted));
-      if (name.base == "velocity") name.base = "vel";
-      const auto block = std::ranges::find(here.blocks, name.base, [](const Block& b) { return lower_case(b.name); });
-      rows.named.push_back(block == here.blocks.end() ? QuantityColumn{}
-                                                      : read_record(here, *block, name.component, count, before));
-    }
+  void put_temperature(const GadgetPart& here, std::size_t count, Cloud& cloud) {
+    cloud.temperature = column(here, choice.temperature, "U", count);
+    if (!choice.temperature.empty()) return;
+    const std::vector<float> electrons = column(here, {}, "NE", count);
+    for (std::size_t i = 0; i < cloud.temperature.size(); ++i)
+      cloud.temperature[i] = electrons.empty() ? gas_temperature(cloud.temperature[i])
+                                               : gas_temperature(cloud.temperature[i], electrons[i]);
   }
 };
 
@@ -310,49 +151,51 @@ struct BinaryReading {
 bool looks_like_gadget_binary(std::string_view first_bytes) {
   if (first_bytes.size() < 16) return false;
   for (const bool swapped : {false, true}) {
-    const auto marker = decode<std::uint32_t>(first_bytes.data(), swapped);
-    if (marker == header_bytes) return true;
-    if (marker == label_bytes && first_bytes.substr(4, 4) == "HEAD") return true;
+    const auto marker = decode_gadget<std::uint32_t>(first_bytes.data(), swapped);
+    if (marker == gadget_header_bytes) return true;
+    if (marker == gadget_label_bytes && first_bytes.substr(4, 4) == "HEAD") return true;
   }
   return false;
 }
 
 CloudSource open_gadget_binary(const std::filesystem::path& path, const CloudChoice& choice) {
-  for (const std::string& wanted :
-       {choice.position, choice.density, choice.temperature, choice.smoothing_length, choice.mass})
-    if (!wanted.empty())
-      throw Error(ErrorKind::wrong_usage,
-                  fmt::format("{}: the fields of a GADGET binary file have no names, but '{}' was requested",
-                              path.string(), wanted));
   auto reading = std::make_shared<BinaryReading>();
-  reading->quantity = quantity_name(choice.quantity);
-  if (reading->quantity.base == "velocity") reading->quantity.base = "VEL";
-  reading->named = names_in_condition(choice);
+  reading->choice = choice;
   reading->type = static_cast<std::size_t>(snapshot_type(choice.type));
-  const BinaryPart first = open_part(path);
+  const GadgetPart first = open_gadget_part(path);
+  for (const std::string& wanted : {choice.density, choice.temperature, choice.smoothing_length, choice.mass})
+    if (!wanted.empty() && !first.labelled)
+      throw Error(
+          ErrorKind::wrong_usage,
+          fmt::format("{}: the records of a GADGET binary file of format 1 have no names, but '{}' was requested",
+                      path.string(), wanted));
+  if (!choice.position.empty())
+    throw Error(ErrorKind::wrong_usage,
+                fmt::format("{}: the positions of a GADGET binary file are its record POS, but '{}' was requested",
+                            path.string(), choice.position));
   CloudSource source{.format = first.labelled ? "GADGET binary 2" : "GADGET binary 1",
                      .box_size = first.box_size,
                      .redshift = first.redshift};
   std::uint64_t count = 0;
   for (const std::filesystem::path& file : snapshot_files(path, first.files)) {
-    reading->parts.push_back(open_part(file));
-    const BinaryPart& part = reading->parts.back();
-    if (part.all() > 0 && part.find("POS") == nullptr) refuse(part, "has no positions");
+    reading->parts.push_back(open_gadget_part(file));
+    const GadgetPart& part = reading->parts.back();
+    if (part.all() > 0 && part.find("POS") == nullptr) refuse_gadget(part, "has no positions");
     count += part.count[reading->type];
     source.bytes += part.length;
   }
-  for (const Block& block : first.blocks) source.fields.push_back(block.name);
+  source.fields = names_of(first);
   if (count == 0) {
     std::string present;
-    for (std::size_t type = 0; type < particle_types; ++type)
+    for (std::size_t type = 0; type < GadgetPart::particle_types; ++type)
       if (first.count[type] > 0)
         present += fmt::format("{}{}: {}", present.empty() ? "" : ", ", type, first.count[type]);
-    refuse(first, fmt::format("has no particles of type '{}'; by type it has {}", choice.type,
-                              present.empty() ? "none" : present));
+    refuse_gadget(first, fmt::format("has no particles of type '{}'; by type it has {}", choice.type,
+                                     present.empty() ? "none" : present));
   }
   if (first.total[reading->type] > count)
-    refuse(first,
-           fmt::format("its header says {} particles, but there are only {}", first.total[reading->type], count));
+    refuse_gadget(
+        first, fmt::format("its header says {} particles, but there are only {}", first.total[reading->type], count));
   source.count = count;
   give_rows([reading](std::size_t most, ParticleRows& rows) { rows = reading->next(most); }, path, choice, source);
   source.skip = [reading](std::size_t most) { return reading->skip(most); };
