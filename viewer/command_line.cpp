@@ -193,6 +193,15 @@ std::string look_options(const ViewState& state) {
   return text + focus_options(look.focus);
 }
 
+/// The bars, and what stands beside them.
+std::string annotation_options(const ParticleLook& look) {
+  if (!look.annotated) return {};
+  std::string text = " --annotate";
+  if (!look.title.empty()) text += " --title " + shell_word(look.title);
+  if (look.annotation_behind_mm != 0) text += fmt::format(" --annotation-depth={}", look.annotation_behind_mm);
+  return text;
+}
+
 /// The options of `render` that make the film of what goes on in time. A path that no file holds is left out.
 std::string film_options(const Session& session) {
   const std::string camera =
@@ -228,10 +237,10 @@ struct LineOf {
   }
   std::string operator()(const ParticlesContent& content) const {
     const std::array<double, 3>& origin = content.particles->cloud.origin;
-    const std::string options = view_options(session, origin) + look_options(session.state);
+    const std::string options =
+        view_options(session, origin) + look_options(session.state) + annotation_options(session.state.look);
     if (session.film) return fmt::format("wheatstone render{}{}{}", files_of(item), options, film_options(session));
-    const char* const annotated = session.state.look.annotated ? " --annotate" : "";
-    return fmt::format("wheatstone render{}{}{} -o views", files_of(item), options, annotated);
+    return fmt::format("wheatstone render{}{} -o views", files_of(item), options);
   }
 };
 

@@ -8,6 +8,7 @@
 
 #include "command_table.h"
 #include "particle_scene.h"
+#include "wheatstone/app/annotate.h"
 #include "wheatstone/error.h"
 
 namespace wheatstone::viewer {
@@ -91,6 +92,24 @@ ParticleLook& thesis_look_of(Viewer& viewer) {
   ParticleLook& look = state_of(viewer).look;
   if (drawn_look(look) != Look::thesis) throw Error(ErrorKind::wrong_usage, "it works with 'look thesis'");
   return look;
+}
+
+/// Changes what stands beside the scale and colour bars, and shows them. Throws where it cannot be drawn.
+void set_annotation(Viewer& viewer, const std::string& title, float behind_mm) {
+  ViewState changed = state_of(viewer);
+  changed.look.annotated = true;
+  changed.look.title = title;
+  changed.look.annotation_behind_mm = behind_mm;
+  check_annotation({.title = title, .behind_mm = behind_mm}, perceived_depth(changed).viewing);
+  state_of(viewer).look = changed.look;
+}
+
+void set_title(Viewer& viewer, const Words& words) {
+  set_annotation(viewer, words[0] == "off" ? std::string() : words[0], state_of(viewer).look.annotation_behind_mm);
+}
+
+void set_annotation_depth(Viewer& viewer, const Words& words) {
+  set_annotation(viewer, state_of(viewer).look.title, static_cast<float>(number_of(words[0], -1e4, 1e5)));
 }
 
 void set_opaque(Viewer& viewer, const Words& words) {
@@ -358,6 +377,20 @@ constexpr Command quantity_table[] = {
      "Show a scale bar, a colour bar with units, and the redshift",
      "",
      [](Viewer& v, const Words& w) { state_of(v).look.annotated = switch_of(w[0]); },
+     {.is_for_scripts = true}},
+    {"title",
+     "TEXT|off",
+     "Particles",
+     "Show the scale and colour bars with a title",
+     "",
+     set_title,
+     {.is_for_scripts = true}},
+    {"annotation-depth",
+     "MM",
+     "Particles",
+     "How far behind the screen the bars and the title stand, in mm; before it where negative",
+     "",
+     set_annotation_depth,
      {.is_for_scripts = true}},
     {"annotations",
      "",

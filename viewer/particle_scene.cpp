@@ -211,7 +211,8 @@ DrawnParticles ParticleDrawer::draw(const std::shared_ptr<const Particles>& part
   if (state.look.annotated) {
     rendered.units = particles->units;
     rendered.redshift = particles->redshift;
-    annotate(rendered, rendered.rendered.views);
+    annotate(rendered, rendered.rendered.views,
+             {.title = state.look.title, .behind_mm = state.look.annotation_behind_mm});
   }
   return {std::move(rendered.rendered.views),
           {.exposure = rendered.rendered.exposure / light, .least = rendered.least, .most = rendered.most},

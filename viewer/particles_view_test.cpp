@@ -106,12 +106,20 @@ TEST_F(OpenParticles, AreTheViewsOfTheCommandThatTheyTell) {
 
 TEST_F(OpenParticles, ShowTheNumbersThatRenderShows) {
   run("orbit 20 -30");
-  for (const char* line : {"look mass", "quantity column-density", "projection orthographic", "annotate on",
-                           "quantity mean:rho", "stretch log", "colours viridis", "least 1.5"}) {
+  for (const char* line :
+       {"look mass", "quantity column-density", "projection orthographic", "annotate on", "title Gas",
+        "annotation-depth -30", "quantity mean:rho", "stretch log", "colours viridis", "least 1.5"}) {
     run(line);
     EXPECT_GT(likeness_to_command(), 50) << line;
   }
   EXPECT_EQ(open_particles(viewer)->units.name, "rho");
+  run("title \"Gas & dust\"");
+  EXPECT_THAT(command_line_of(viewer.session()),
+              testing::HasSubstr(" --annotate --title 'Gas & dust' --annotation-depth=-30"));
+  expect_error(ErrorKind::wrong_usage, "where the viewer is", [&] { run("annotation-depth -1e4"); });
+  EXPECT_EQ(state().look.annotation_behind_mm, -30);
+  run("title off");
+  EXPECT_THAT(command_line_of(viewer.session()), testing::Not(testing::HasSubstr("--title")));
   // Another quantity has other limits, and another picture.
   const Image<Rgb8> before = picture();
   run("quantity column-density");

@@ -36,6 +36,8 @@ struct ParticleLook {
   /// What the light of the thesis's look is multiplied by. Empty until the first picture of all particles has found it.
   std::optional<float> exposure;
   bool annotated = false;                 ///< with a scale bar, a colour bar and the redshift
+  std::string title;                      ///< of what is annotated
+  float annotation_behind_mm = 0;         ///< where all of that stands, behind the screen
   std::optional<float> coldest, hottest;  ///< where the colours begin and end
   std::string colours;                    ///< a colour map's name
   float smallest_px = 2, largest_px = 6;  ///< diameter of a splat
