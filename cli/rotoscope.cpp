@@ -15,6 +15,7 @@
 #include "display_argument.h"
 #include "film_argument.h"
 #include "film_plan_run.h"
+#include "film_shots_run.h"
 #include "match_options.h"
 #include "stereo_arguments.h"
 #include "style_options.h"
@@ -48,6 +49,7 @@ struct RotoscopeArguments {
   std::string flow_values = "255";
   DepthArguments depth;
   PlanArguments plan;
+  ShotsArguments shots;
   RotoscopeFilmOptions options;
   MatchArguments matching;
   StyleArguments style;
@@ -263,6 +265,12 @@ Report run_rotoscope(const RotoscopeArguments& given, const Session& session) {
   if (!session.ranks.alone() && (is_of_plan(given.plan) || !given.options.plan.empty()))
     throw Error(ErrorKind::wrong_usage, "--plan, --draw and --join work in one process, not under mpirun");
   if (is_of_plan(given.plan)) return run_plan(given.plan, given.film, given.output, given.given, session);
+  if (!given.shots.list.empty()) {
+    RotoscopeArguments listing = given;
+    listing.output = given.shots.list;
+    const FilmFiles film = films_from(listing);
+    return run_list(given.shots, film, reading_options(listing, film, session), session);
+  }
   RotoscopeArguments arguments = given;
   RotoscopeOptions& frames = arguments.options.frames;
   frames.style = style_from(arguments.style, session.seed);
@@ -427,6 +435,7 @@ Rows rotoscope_rows(RotoscopeArguments& a) {
   });
   const Rows all = join({basic,
                          film_rows(a),
+                         shots_rows(a.shots),
                          plan_rows(a.plan, plan_row),
                          time_rows(a),
                          film_depth_rows(a.depth),
@@ -434,7 +443,7 @@ Rows rotoscope_rows(RotoscopeArguments& a) {
                          {device_row(a.options.frames.device, "What draws the planned frames", {undrawn})},
                          style,
                          under({}, match_rows(a.matching), {known})});
-  return refused_on_plans(all, a.plan);
+  return refused_on_list(refused_on_plans(all, a.plan), a.shots);
 }
 
 }  // namespace
@@ -454,7 +463,8 @@ Examples:
   wheatstone synth film -o film && wheatstone rotoscope film -o painted.mp4
   wheatstone rotoscope film.mp4 --plan film.plan -o painted.mp4
   wheatstone rotoscope --draw film.plan --frame-range 1/2 && wheatstone rotoscope --draw film.plan --frame-range 2/2
-  wheatstone rotoscope --join film.plan)");
+  wheatstone rotoscope --join film.plan
+  wheatstone rotoscope film.mp4 --list-shots shots.toml)");
 }
 
 }  // namespace wheatstone::cli

@@ -1,0 +1,47 @@
+#include "film_shots_run.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+#include <vector>
+
+#include "wheatstone/app/list_shots.h"
+#include "wheatstone/error.h"
+
+namespace wheatstone::cli {
+
+Rows shots_rows(ShotsArguments& arguments) {
+  return under("Shots", {row("--list-shots", of_type("FILE", text(arguments.list)),
+                             "Only find the cuts, and write the shots to this file (.toml), to be edited, with a small "
+                             "picture of each beside it")});
+}
+
+Rows refused_on_list(Rows rows, const ShotsArguments& arguments) {
+  constexpr std::array<std::string_view, 5> of_lists{"FILM", "RIGHT", "--list-shots", "--layout", "--rate"};
+  for (Row& one : rows)
+    if (std::ranges::find(of_lists, name_of(one)) == of_lists.end())
+      one.unless.push_back(when([&arguments] { return !arguments.list.empty(); },
+                                "with --list-shots, which lists the whole film and paints nothing"));
+  return rows;
+}
+
+Report run_list(const ShotsArguments& arguments, const FilmFiles& film, const FilmReaderOptions& reading,
+                const Session& session) {
+  if (!session.ranks.alone())
+    throw Error(ErrorKind::wrong_usage, "--list-shots works in one process, not under mpirun");
+  const std::vector<FoundShot> shots = list_shots(film, reading, arguments.list, session.progress);
+  Json listed = Json::array();
+  for (const FoundShot& shot : shots)
+    listed.push_back({{"begin", shot.begin + 1},
+                      {"frames", shot.frames},
+                      {"begin_s", shot.begin_s},
+                      {"length_s", shot.length_s},
+                      {"thumbnail", shot.thumbnail}});
+  return {{{"output", arguments.list},
+           {"shots", listed, fmt::format("shots            {}", shots.size())},
+           only_text(fmt::format("written to       {}, with a picture of each shot beside it", arguments.list))}};
+}
+
+}  // namespace wheatstone::cli

@@ -1,0 +1,98 @@
+#include "wheatstone/app/list_shots.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <string>
+#include <utility>
+
+#include "wheatstone/app/film_scenes.h"
+#include "wheatstone/error.h"
+#include "wheatstone/files/whole_file.h"
+#include "wheatstone/pictures/write_image.h"
+#include "wheatstone/stereo/picture_sizes.h"
+
+namespace wheatstone {
+namespace {
+
+namespace fs = std::filesystem;
+
+void check_output(const fs::path& output) {
+  if (output.extension() != ".toml")
+    throw Error(ErrorKind::wrong_usage, fmt::format("{}: expected a name that ends in .toml", output.string()));
+  std::error_code ignored;
+  if (fs::exists(output, ignored))
+    throw Error(ErrorKind::wrong_usage,
+                fmt::format("{}: exists, and may have been edited; expected a new name", output.string()));
+}
+
+/// A small JPEG of the left eye.
+std::string thumbnail_of(const Image<Rgb8>& picture) {
+  constexpr int longest_px = 320, quality = 85;
+  const int longer = std::max(picture.width(), picture.height());
+  if (longer <= longest_px) return encode_jpeg(picture, quality);
+  const PictureSize size{std::max(picture.width() * longest_px / longer, 1),
+                         std::max(picture.height() * longest_px / longer, 1)};
+  return encode_jpeg(reduced(picture, size), quality);
+}
+
+double seconds_of(const StereoFrame& frame, std::int64_t pts) {
+  return static_cast<double>(pts) * frame.time_base.value();
+}
+
+/// The frames of a film that it is gone through for, in ascending order.
+class FrameSearch {
+ public:
+  explicit FrameSearch(StereoFilmReader film) : film_(std::move(film)) {}
+
+  /// A frame, counted from 0: the present one, or a later one.
+  const StereoFrame& at(std::int64_t frame) {
+    if (frame + 1 == read_) return frame_;
+    read_ += film_.skip(frame - read_);
+    if (read_ != frame || !film_.read(frame_))
+      throw Error(ErrorKind::bad_input,
+                  fmt::format("the film ended after {} frames, expected more as at first", read_));
+    ++read_;
+    return frame_;
+  }
+
+ private:
+  StereoFilmReader film_;
+  StereoFrame frame_;
+  std::int64_t read_ = 0;
+};
+
+}  // namespace
+
+std::vector<FoundShot> list_shots(const FilmFiles& film, const FilmReaderOptions& reading, const fs::path& output,
+                                  const Progress& progress) {
+  check_output(output);
+  StereoFilmReader looked_at = open_film(film, reading);
+  const FilmScenes scenes = find_scenes(looked_at, {}, progress);
+  if (const auto loss = looked_at.loss()) throw Error(ErrorKind::bad_input, *loss);
+  if (scenes.frames == 0) throw Error(ErrorKind::bad_input, fmt::format("{}: has no frame", film.film.string()));
+
+  FrameSearch frames(open_film(film, reading));
+  std::vector<FoundShot> shots;
+  std::vector<std::string> pictures;
+  for (std::size_t i = 0; i < scenes.begins.size(); ++i) {
+    report(progress, "making thumbnails", static_cast<double>(i) / static_cast<double>(scenes.begins.size()));
+    const std::int64_t begin = scenes.begins[i];
+    const std::int64_t end = i + 1 < scenes.begins.size() ? scenes.begins[i + 1] : scenes.frames;
+    FoundShot shot{.begin = begin, .frames = end - begin};
+    shot.thumbnail = fmt::format("{}_{:03}.jpg", output.stem().string(), i + 1);
+    const StereoFrame& first = frames.at(begin);
+    shot.begin_s = seconds_of(first, first.pts);
+    pictures.push_back(thumbnail_of(frames.at(begin + (end - begin) / 2).left));
+    const StereoFrame& last = frames.at(end - 1);
+    shot.length_s = seconds_of(last, last.pts + last.duration) - shot.begin_s;
+    shots.push_back(std::move(shot));
+  }
+  for (std::size_t i = 0; i < shots.size(); ++i)
+    write_whole_file(output.parent_path() / shots[i].thumbnail, pictures[i]);
+  write_whole_file(output, shots_file_text(shots));
+  return shots;
+}
+
+}  // namespace wheatstone
