@@ -8,14 +8,20 @@
 #include <vector>
 
 #include "wheatstone/app/list_shots.h"
+#include "wheatstone/app/place_shots.h"
 #include "wheatstone/error.h"
 
 namespace wheatstone::cli {
 
-Rows shots_rows(ShotsArguments& arguments) {
-  return under("Shots", {row("--list-shots", of_type("FILE", text(arguments.list)),
-                             "Only find the cuts, and write the shots to this file (.toml), to be edited, with a small "
-                             "picture of each beside it")});
+Rows shots_rows(ShotsArguments& arguments, const Reasons& unless) {
+  return under("Shots",
+               {row("--list-shots", of_type("FILE", text(arguments.list)),
+                    "Only find the cuts, and write the shots to this file (.toml), to be edited, with a small picture "
+                    "of each beside it"),
+                row("--shots", of_type("FILE", text(arguments.file)),
+                    "Paint the shots of this file (.toml), each in its own style and depth; no other cuts are looked "
+                    "for",
+                    unless)});
 }
 
 Rows refused_on_list(Rows rows, const ShotsArguments& arguments) {
@@ -25,6 +31,18 @@ Rows refused_on_list(Rows rows, const ShotsArguments& arguments) {
       one.unless.push_back(when([&arguments] { return !arguments.list.empty(); },
                                 "with --list-shots, which lists the whole film and paints nothing"));
   return rows;
+}
+
+std::vector<FilmShot> shots_from(const ShotsArguments& arguments, const FilmFiles& film,
+                                 const RotoscopeFilmOptions& options, LimitedFilm limited, const Session& session) {
+  std::string no_budget, no_plane;
+  if (limited.of_marks) no_budget = no_plane = "on marks (.wst); they have the depth of the film";
+  if (limited.of_one_eye) no_budget = no_plane = "on a film of one eye";
+  if (options.frames.display) no_budget = "with --display; --span sets how deep it looks";
+  std::vector<UnusedKey> unused;
+  if (!no_budget.empty()) unused.push_back({"depth-budget", no_budget});
+  if (!no_plane.empty()) unused.push_back({"zero-parallax", no_plane});
+  return place_shots(read_shots(arguments.file, options.frames, unused), film, options.reading, session.progress);
 }
 
 Report run_list(const ShotsArguments& arguments, const FilmFiles& film, const FilmReaderOptions& reading,

@@ -1,25 +1,36 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "commands.h"
 #include "options.h"
 #include "report.h"
+#include "wheatstone/app/rotoscope_film.h"
 #include "wheatstone/video/film_files.h"
 
 namespace wheatstone::cli {
 
 /// A shots file, which is written or read.
 struct ShotsArguments {
-  std::string list;
+  std::string list, file;
 };
 
-/// --list-shots.
-Rows shots_rows(ShotsArguments& arguments);
+/// --list-shots and --shots, which is refused where one of `unless` holds.
+Rows shots_rows(ShotsArguments& arguments, const Reasons& unless);
 
 /// The rows of the command, of which those are refused with --list-shots that have no effect there: it only looks at
 /// the film.
 Rows refused_on_list(Rows rows, const ShotsArguments& arguments);
+
+/// A run whose film cannot have all that a shots file may set.
+struct LimitedFilm {
+  bool of_marks = false, of_one_eye = false;
+};
+
+/// The shots of the film, as the shots file has them.
+std::vector<FilmShot> shots_from(const ShotsArguments& arguments, const FilmFiles& film,
+                                 const RotoscopeFilmOptions& options, LimitedFilm limited, const Session& session);
 
 /// Writes a shots file of a film.
 Report run_list(const ShotsArguments& arguments, const FilmFiles& film, const FilmReaderOptions& reading,

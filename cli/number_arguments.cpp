@@ -11,6 +11,7 @@
 
 #include "wheatstone/error.h"
 #include "wheatstone/image/colour.h"
+#include "wheatstone/video/film_time.h"
 
 namespace wheatstone::cli {
 namespace {
@@ -115,20 +116,9 @@ Part parse_part(const std::string& option, const std::string& words) {
 
 std::optional<double> parse_time_s(const std::string& option, std::string_view text) {
   if (text.empty()) return {};
-  const auto wrong = [&] { refuse(option, text, "seconds or [HH:]MM:SS, as 12.5 or 1:02:03"); };
-  double seconds = 0;
-  std::string_view rest = text;
-  for (int parts = 1;; ++parts) {
-    const std::size_t colon = rest.find(':');
-    const bool last = colon == std::string_view::npos;
-    const double value = whole_number<double>(rest.substr(0, colon)).value_or(-1);
-    // Below the first, minutes and seconds end at 60; only the last has a fraction.
-    if (!NumberRange{0, parts > 1 ? std::nextafter(60.0, 0.0) : 1e9}.has(value) || parts > 3) wrong();
-    if (!last && value != std::floor(value)) wrong();
-    seconds = 60 * seconds + value;
-    if (last) return seconds;
-    rest.remove_prefix(colon + 1);
-  }
+  const std::optional<double> seconds = film_time_from(text);
+  if (!seconds) refuse(option, text, "seconds or [HH:]MM:SS, as 12.5 or 1:02:03");
+  return seconds;
 }
 
 Rational parse_frame_rate(const std::string& option, std::string_view text) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -105,6 +106,10 @@ double megabytes_in(const fs::path& folder) {
   return static_cast<double>(bytes) / 1e6;
 }
 
+bool sets_screen_plane(const RotoscopeArguments& arguments) {
+  return arguments.options.frames.zero_parallax_px || !arguments.shots.file.empty();
+}
+
 Report report_of(const RotoscopeArguments& arguments, const RotoscopedFilm& film, const Session& session) {
   const RotoscopeTotals& totals = film.totals;
   const RotoscopeOptions& options = arguments.options.frames;
@@ -147,11 +152,13 @@ Report report_of(const RotoscopeArguments& arguments, const RotoscopedFilm& film
     add({"moved_frames", totals.moved_frames});
     add({"presented_separation", totals.least_separation});
   }
-  if (totals.moved_frames > 0)
-    add(only_text(
-        fmt::format("depth            reduced in {} frames, to {:.0f} % or more, to stay comfortable ({:.3g} % of "
-                    "width); --depth-budget full keeps it",
-                    totals.moved_frames, 100 * totals.least_separation, 100 * options.depth_budget.value_or(1))));
+  if (totals.moved_frames > 0 && (totals.least_separation < 1 || !sets_screen_plane(arguments)))
+    add(only_text(fmt::format(
+        "depth            reduced in {} frames, to {:.0f} % or more, to stay comfortable ({}); "
+        "--depth-budget full keeps it",
+        totals.moved_frames, 100 * totals.least_separation,
+        arguments.shots.file.empty() ? fmt::format("{:.3g} % of width", 100 * options.depth_budget.value_or(1))
+                                     : arguments.shots.file)));
   add({"ranks", session.ranks.count()});
   if (film.loss) add({"loss", *film.loss, fmt::format("source           {}", *film.loss)});
   add({"notes", film.notes, lines("note             ", film.notes)});
@@ -232,9 +239,11 @@ FilmFiles films_from(const RotoscopeArguments& arguments) {
   FilmFiles film = find_film(arguments.film, layout);
   if (!arguments.right.empty()) film = {arguments.film, arguments.right, {}};
   const fs::path depth = arguments.depth.file, model = arguments.depth.model;
+  const fs::path shots = arguments.shots.file;
   for (const fs::path& output : {fs::path(arguments.output), arguments.options.right_film})
     if (!output.empty())
-      check_not_an_input(output, std::array{film.film, film.right, depth, model, arguments.options.frames.flow_model});
+      check_not_an_input(output,
+                         std::array{film.film, film.right, depth, model, arguments.options.frames.flow_model, shots});
   return film;
 }
 
@@ -258,7 +267,21 @@ void refuse_for_one_eye(const RotoscopeArguments& arguments, const FilmFiles& fi
             film.film.string()));
   MatchArguments matching;
   for (const Row& row : match_rows(matching)) refuse_options(arguments.given, {name_of(row)}, "on a film of one eye");
-  refuse_options(arguments.given, {"--central", "--rectify", "--depth-budget"}, "on a film of one eye");
+  refuse_options(arguments.given, {"--central", "--rectify", "--depth-budget", "--zero-parallax"},
+                 "on a film of one eye");
+}
+
+/// What the processes of mpirun share.
+void take_ranks(const FilmFiles& film, RotoscopeFilmOptions& options, const Session& session) {
+  if (session.ranks.alone()) return;
+  options.ranks = session.ranks;
+  StereoFilmReader looked_at = open_film(film, options.reading);
+  if (options.shots.empty()) {
+    options.scenes = find_scenes(looked_at, session.ranks, session.progress);
+    return;
+  }
+  for (const FilmShot& shot : options.shots) options.scenes.begins.push_back(shot.begin);
+  options.scenes.frames = looked_at.skip(std::numeric_limits<std::int64_t>::max());
 }
 
 Report run_rotoscope(const RotoscopeArguments& given, const Session& session) {
@@ -298,11 +321,11 @@ Report run_rotoscope(const RotoscopeArguments& given, const Session& session) {
   options.made_by = fmt::format("wheatstone {}", WHEATSTONE_VERSION);
   take_device(session, options);
   StereoFilmReader source = open_film(film, options.reading);
-  if (has_depth(arguments.depth)) {
-    take_depth(arguments, film, source, options);
-  } else if (source.layout() == StereoLayout::mono && film.right.empty()) {
-    refuse_for_one_eye(arguments, film);
-  }
+  const bool has_one_eye = !has_depth(arguments.depth) && source.layout() == StereoLayout::mono && film.right.empty();
+  if (has_depth(arguments.depth)) take_depth(arguments, film, source, options);
+  if (has_one_eye) refuse_for_one_eye(arguments, film);
+  if (!arguments.shots.file.empty())
+    options.shots = shots_from(arguments.shots, film, options, {writes_marks(arguments), has_one_eye}, session);
   if (session.verbose && film.right.empty())
     remark(session, fmt::format("layout: {} ({})", layout_name(source.layout()), source.layout_how()));
   options.made_by += fmt::format(" from {}", layout_name(source.layout()));
@@ -312,11 +335,7 @@ Report run_rotoscope(const RotoscopeArguments& given, const Session& session) {
   if (!film.right.empty()) options.made_from.push_back(film.right);
   const std::vector<std::string> left_out = side_streams_left_out(arguments.output, options.writing);
   if (!left_out.empty()) remark(session, fmt::format("wheatstone: {}", fmt::join(left_out, "; ")));
-  if (!session.ranks.alone()) {
-    options.ranks = session.ranks;
-    StereoFilmReader looked_at = open_film(film, options.reading);
-    options.scenes = find_scenes(looked_at, session.ranks, session.progress);
-  }
+  take_ranks(film, options, session);
   const RotoscopedFilm result =
       make_or_say_how_to_continue([&] { return rotoscope_film(source, arguments.output, options, session.progress); });
   session.ranks.meet();
@@ -368,7 +387,8 @@ Rows time_rows(RotoscopeArguments& a) {
   const Reason truth = when([&a] { return !a.truth.empty(); }, "with --truth; the exact flow and disparity are read");
   const Reason anew =
       when([&a] { return a.options.frames.anew; }, "with --frame-by-frame; nothing is carried from frame to frame");
-  const Reason other_marks = [&a] {
+  const Reason other_marks = [&a]() -> std::string {
+    if (!a.shots.file.empty()) return {};  // its shots may have strokes
     const Style style = style_from(a.style, 1);
     return is_of_strokes(style) ? "" : fmt::format("on a painting of {}; it works with strokes", name_of(style.marks));
   };
@@ -400,6 +420,9 @@ Rows time_rows(RotoscopeArguments& a) {
            "that of the source. The film is drawn for eyes that are nearer together",
            {when([&a] { return !a.display.name.empty(); }, "with --display; --span sets how deep it looks"),
             when([&a] { return writes_marks(a); }, "on marks (.wst); they have the depth of the film")}),
+       row("--zero-parallax", number(frames.zero_parallax_px, zero_parallax_range),
+           "Disparity in pixels that lies on the screen plane; chosen from the depth by default",
+           {when([&a] { return writes_marks(a); }, "on marks (.wst); they have the depth of the film")}),
        row("--frame-by-frame", flag(frames.anew), "Paint every frame separately, which flickers; for comparison"),
        row("--truth", text(a.truth),
            "Folder of 'synth film' whose exact flow and disparities are used instead of estimates", {with_depth(a)})});
@@ -414,6 +437,8 @@ Rows rotoscope_rows(RotoscopeArguments& a) {
   const Reason known = [&a] {
     return known_depth(a).empty() ? "" : known_depth(a) + "; nothing is matched where the disparity is given";
   };
+  const Reason with_truth =
+      when([&a] { return !a.truth.empty(); }, "with --truth; the exact flow says where scenes begin");
   const Row plan_row = row("--plan", of_type("DIR", text(a.options.plan)),
                            "Only plan the film, and write the marks of its frames to this folder, to be drawn in parts "
                            "by --draw",
@@ -435,7 +460,7 @@ Rows rotoscope_rows(RotoscopeArguments& a) {
   });
   const Rows all = join({basic,
                          film_rows(a),
-                         shots_rows(a.shots),
+                         shots_rows(a.shots, {with_truth}),
                          plan_rows(a.plan, plan_row),
                          time_rows(a),
                          film_depth_rows(a.depth),
@@ -464,7 +489,7 @@ Examples:
   wheatstone rotoscope film.mp4 --plan film.plan -o painted.mp4
   wheatstone rotoscope --draw film.plan --frame-range 1/2 && wheatstone rotoscope --draw film.plan --frame-range 2/2
   wheatstone rotoscope --join film.plan
-  wheatstone rotoscope film.mp4 --list-shots shots.toml)");
+  wheatstone rotoscope film.mp4 --list-shots shots.toml && wheatstone rotoscope film.mp4 --shots shots.toml)");
 }
 
 }  // namespace wheatstone::cli

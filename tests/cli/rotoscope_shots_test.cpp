@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "cli/run_program.h"
@@ -52,6 +53,81 @@ TEST(RotoscopeShots, AListTakesNoOptionOfPainting) {
     EXPECT_EQ(result.exit_code, 2) << words[0];
     EXPECT_THAT(result.errors, HasSubstr("has no effect with --list-shots")) << words[0];
     EXPECT_FALSE(fs::exists(folder / "cuts.toml")) << words[0];
+  }
+}
+
+/// Two styles in the film of make_synthetic, with a cut more than it has.
+void write_shots(const TemporaryFolder& folder) {
+  put_bytes(folder / "s.toml", R"([[shot]]
+begin = 1
+style = "mosaic"
+[[shot]]
+begin = 5
+radii = [8, 4]
+[[shot]]
+begin = "0:00.25"
+style = "posterise"
+)");
+}
+
+TEST(RotoscopeShots, ArePaintedAlikeInTheWholeFilmAndInAPartOfIt) {
+  const TemporaryFolder folder;
+  make_synthetic(folder);
+  write_shots(folder);
+  const Words all{"--style", "impressionist", "--shots", "s.toml", "-o", "all_%d.wst"};
+  const ProgramResult whole = rotoscope(folder, all);
+  ASSERT_EQ(whole.exit_code, 0) << whole.errors;
+  EXPECT_THAT(whole.output, HasSubstr("8 frames in 3 scenes"));
+  // Frames 5 and 6 are the second shot.
+  const ProgramResult part = rotoscope(folder, {"--style", "impressionist", "--shots", "s.toml", "--from", "0.166",
+                                                "--to", "0.25", "-o", "part_%d.wst"});
+  ASSERT_EQ(part.exit_code, 0) << part.errors;
+  EXPECT_TRUE(bytes_of(folder / "part_1.wst") == bytes_of(folder / "all_5.wst"));
+  EXPECT_TRUE(bytes_of(folder / "part_2.wst") == bytes_of(folder / "all_6.wst"));
+  EXPECT_FALSE(fs::exists(folder / "part_3.wst"));
+  // And as the options of that shot paint them.
+  const ProgramResult alone = rotoscope(
+      folder, {"--style", "impressionist", "--radii", "8,4", "--from", "0.166", "--to", "0.25", "-o", "alone_%d.wst"});
+  ASSERT_EQ(alone.exit_code, 0) << alone.errors;
+  EXPECT_TRUE(bytes_of(folder / "alone_2.wst") == bytes_of(folder / "all_6.wst"));
+}
+
+TEST(RotoscopeShots, ThatAreWrongAreOneLineThatNamesThePlace) {
+  const TemporaryFolder folder;
+  make_synthetic(folder);
+  const auto expect = [&](const std::string& toml, const Words& words, const std::string& message) {
+    put_bytes(folder / "bad.toml", toml);
+    Words line{"--shots", "bad.toml"};
+    line.insert(line.end(), words.begin(), words.end());
+    const ProgramResult result = rotoscope(folder, line);
+    EXPECT_EQ(result.exit_code, 3) << message;
+    EXPECT_THAT(result.errors, HasSubstr("bad.toml: " + message));
+    EXPECT_EQ(std::ranges::count(result.errors, '\n'), 1) << result.errors;
+  };
+  const std::string first = "[[shot]]\nbegin = 1\n";
+  expect(first + "style = \"oils\"\n", {}, "shot 1, line 3: style: there is no 'oils'");
+  expect(first + "last = 5\n[[shot]]\nbegin = 5\n", {}, "shot 1, line 1: ends with frame 5, but the next");
+  expect(first + "[[shot]]\nbegin = 9\n", {}, "shot 2, line 3: begins beyond the end of the film, which has 8 frames");
+  expect(first + "zero-parallax = 2\n", {"-o", "m_%d.wst"}, "shot 1, line 3: 'zero-parallax' has no effect on marks");
+  expect(first + "depth-budget = 0.1\n", {"--display", "looking-glass-portrait"},
+         "shot 1, line 3: 'depth-budget' has no effect with --display");
+  EXPECT_FALSE(fs::exists(folder / "painted.mp4"));
+}
+
+TEST(RotoscopeShots, AreRefusedWhereSomethingElseSaysThem) {
+  const TemporaryFolder folder;
+  make_synthetic(folder);
+  write_shots(folder);
+  for (const auto& [words, message] : std::initializer_list<std::pair<Words, std::string>>{
+           {{"--truth", "film"}, "--shots: has no effect with --truth"},
+           {{"--list-shots", "t.toml"}, "--shots: has no effect with --list-shots"},
+           {{"--draw"}, "--shots: has no effect with --draw"},
+           {{"-o", "s.toml"}, "s.toml: is the same file as the input s.toml"}}) {
+    Words line{"--shots", "s.toml"};
+    line.insert(line.end(), words.begin(), words.end());
+    const ProgramResult result = rotoscope(folder, line);
+    EXPECT_EQ(result.exit_code, 2) << message;
+    EXPECT_THAT(result.errors, HasSubstr(message));
   }
 }
 

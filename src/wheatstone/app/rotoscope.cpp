@@ -143,14 +143,16 @@ struct FirstLook {
   Flow to_before;  ///< as in FrameTask
 };
 
-/// Detects a cut in the frames as they come. Also returns the flow to the previous frame if the detection needed it.
+/// Tells whether a scene begins, by a cut in the frames as they come if nobody says it. Also returns the flow to the
+/// previous frame if the detection needed it.
 bool tells_cut_of(const FrameTask& photographed, const RotoscopeState& state, Flow& to_before) {
-  if (state.left_before.empty()) return true;
+  const std::optional<bool> begins = photographed.options.scene_begins;
+  if (state.left_before.empty() || begins.value_or(false)) return true;
   const KnownFrame* known = photographed.known;
-  if (known != nullptr && known->flow) return tells_cut(*known->flow);
+  if (known != nullptr && known->flow) return begins.value_or(tells_cut(*known->flow));
   FrameChange change = find_cut(state.left_before, photographed.eyes.left);
   to_before = std::move(change.flow.backward);
-  return change.cut;
+  return begins.value_or(change.cut);
 }
 
 /// Only the film's sums pass to a new scene, so that scenes can be painted separately.
@@ -224,6 +226,18 @@ FrameAtWork look_at(const FrameTask& task, RotoscopeState& state, RotoscopeTimes
   return frame;
 }
 
+/// The display with its screen plane.
+FilmDisplay display_of(const RotoscopeOptions& options) {
+  FilmDisplay display = *options.display;
+  if (options.zero_parallax_px) display.views.zero_parallax_px = options.zero_parallax_px;
+  return display;
+}
+
+/// Whether the frame is drawn for eyes that its scene's depth decides.
+bool has_own_eyes(const RotoscopeOptions& options) {
+  return !options.display && (options.depth_budget || options.zero_parallax_px);
+}
+
 /// The scene's views: the central one, the eyes', and those beside them that a display shows.
 void find_views(const FrameTask& task, bool scene_begins, RotoscopeState& state, FrameAtWork& frame) {
   if (task.eyes.right.empty()) {
@@ -232,13 +246,13 @@ void find_views(const FrameTask& task, bool scene_begins, RotoscopeState& state,
   }
   frame.views = scene_from_centre(frame.centre, task.eyes, frame.geometry);
   const auto reduction = static_cast<float>(task.reduction);
-  if (task.options.display || task.options.depth_budget) {
+  if (task.options.display || has_own_eyes(task.options)) {
     const DepthEnds ends = depth_ends(frame.centre.disparity);
     follow_depth({ends.farthest_px * reduction, ends.nearest_px * reduction}, scene_begins, state.depth);
   }
   if (!task.options.display) return;
   const ViewRange wanted =
-      planned_views({task.whole.left.width(), task.whole.left.height()}, state.depth, task.options.display->views);
+      planned_views({task.whole.left.width(), task.whole.left.height()}, state.depth, display_of(task.options).views);
   const std::vector<View> outer =
       make_outer_views(task.eyes, frame.geometry, wanted, state.depth.first.middle_px() / reduction);
   frame.views.insert(frame.views.end(), outer.begin(), outer.end());
@@ -249,7 +263,7 @@ FrameShowing showing_of(const FrameTask& task, const TwoEyes& eyes, const SceneD
   const RotoscopeOptions& options = task.options;
   const StereoPair& whole = task.whole;
   if (options.display)
-    return {for_display({whole.left.width(), whole.left.height()}, depth, *options.display, options.device), {}};
+    return {for_display({whole.left.width(), whole.left.height()}, depth, display_of(options), options.device), {}};
   const bool one_eye = whole.right.empty();
   FrameShowing showing{one_eye ? Presentation{.views = {central_view}} : for_two_eyes(eyes), {}};
   if (!are_moved(eyes) && options.style.background == Background::photograph) {
@@ -324,8 +338,9 @@ PlannedFilmFrame plan_film_frame(const StereoPair& photographed, const Rotoscope
   }
   report(progress, "painting", 0);
   const FilmFrame to_paint{frame.views, carries ? &state.flow_before : nullptr};
-  if (options.depth_budget && !eyes.right.empty() && !options.display)
-    result.eyes = comfortable_eyes({eyes.left.width(), eyes.left.height()}, state.depth.ends, *options.depth_budget);
+  if (has_own_eyes(options) && !eyes.right.empty())
+    result.eyes = comfortable_eyes({eyes.left.width(), eyes.left.height()}, state.depth.ends,
+                                   options.depth_budget.value_or(1.f), options.zero_parallax_px);
   {
     const Stopwatch watch(result.painting_times.planning_s);
     PlannedFrame planned = plan_marks(to_paint, task, result.eyes, state);

@@ -11,6 +11,7 @@
 #include "wheatstone/app/scene_rectification.h"
 #include "wheatstone/matching/match.h"
 #include "wheatstone/motion/flow.h"
+#include "wheatstone/number_range.h"
 #include "wheatstone/painting/paint.h"
 #include "wheatstone/painting/plan_painting.h"
 #include "wheatstone/painting/two_eyes.h"
@@ -19,6 +20,8 @@
 #include "wheatstone/strokes/strokes_between_frames.h"
 
 namespace wheatstone {
+
+inline constexpr NumberRange zero_parallax_range{-65535, 65535};
 
 struct RotoscopeOptions {
   Style style;
@@ -44,7 +47,11 @@ struct RotoscopeOptions {
   Device device = Device::processor;   ///< what draws them; where it is automatic and fails, the processor does
   DisparityFromDepthOptions depth;     ///< of the frames of one eye whose depth is known
   std::optional<float> depth_budget;   ///< of two eyes, as comfortable_eyes; none: they are the film's own
-  bool anew = false;                   ///< every frame as if a scene began: the naive method, to be measured against
+  /// The disparity, in pixels of a frame, that lies on the screen plane, for two eyes and on a display; none: where the
+  /// film has it, as far as the depth budget allows, or in the middle of the scene's depth on a display.
+  std::optional<float> zero_parallax_px;
+  std::optional<bool> scene_begins;  ///< with the frame; none: where a cut is found
+  bool anew = false;                 ///< every frame as if a scene began: the naive method, to be measured against
 };
 
 /// Values of a frame that are known beforehand and need not be estimated.

@@ -65,7 +65,8 @@ auto make_frame_of(Make make, StereoFrame& frame, const RotoscopeFilmOptions& op
   if (options.known) known = options.known(state.frames, eyes.left);
   if (known && known->flow && !options.ranks.alone())
     throw Error(ErrorKind::wrong_usage, "frames whose flow is known are painted in one process, not under mpirun");
-  auto made = make(eyes, options.frames, state, known ? &*known : nullptr, progress);
+  auto made = make(eyes, options_of_frame(options.frames, options.shots, state.frames), state,
+                   known ? &*known : nullptr, progress);
   frame.left = std::move(eyes.left);
   frame.right = std::move(eyes.right);
   return made;
@@ -297,15 +298,15 @@ std::string recipe_of(const RotoscopeFilmOptions& options) {
   // Whoever adds a member says here whether it decides a byte. Not in the text: `writing` and the interval, which the
   // film's segments compare themselves, the sources, which are compared by what is in them, and what only says how
   // the run goes: plan, version, resume, keep_going, expected_frames, ranks and their scenes.
-  static_assert(field_count<RotoscopeFilmOptions>() == 17);
+  static_assert(field_count<RotoscopeFilmOptions>() == 18);
   RotoscopeOptions frames = options.frames;
   frames.matching.model.clear();  // their content is compared
   frames.flow_model.clear();
   FilmReaderOptions reading = options.reading;
   reading.threads = 0;  // the same frames on any number
-  return fmt::format("{}\n{}\n{}\nanaglyph {}\ntwo films {}\nmarks {}\nknown {}", options.made_by,
-                     text_of_fields(frames), text_of_fields(reading), options.anaglyph, !options.right_film.empty(),
-                     options.marks.string(), static_cast<bool>(options.known));
+  return fmt::format("{}\n{}\n{}\n{}\nanaglyph {}\ntwo films {}\nmarks {}\nknown {}", options.made_by,
+                     text_of_fields(frames), text_of_fields(options.shots), text_of_fields(reading), options.anaglyph,
+                     !options.right_film.empty(), options.marks.string(), static_cast<bool>(options.known));
 }
 
 std::optional<std::string> unfinished_film(const fs::path& output, const fs::path& marks) {

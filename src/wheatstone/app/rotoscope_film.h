@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "wheatstone/app/film_scenes.h"
+#include "wheatstone/app/film_shots.h"
 #include "wheatstone/app/rotoscope.h"
 #include "wheatstone/progress.h"
 #include "wheatstone/ranks/ranks.h"
@@ -17,9 +18,10 @@ namespace wheatstone {
 
 struct RotoscopeFilmOptions {
   RotoscopeOptions frames;
-  FilmReaderOptions reading;  ///< that the source was opened with: they decide which frames there are
-  FilmWriterOptions writing;  ///< `layout` says how the eyes lie in a painted frame
-  std::string anaglyph;       ///< an anaglyph_kind's name: two eyes in one picture for coloured glasses; empty: none
+  std::vector<FilmShot> shots;  ///< as options_of_frame takes them; empty: cuts are found, and all is painted alike
+  FilmReaderOptions reading;    ///< that the source was opened with: they decide which frames there are
+  FilmWriterOptions writing;    ///< `layout` says how the eyes lie in a painted frame
+  std::string anaglyph;         ///< an anaglyph_kind's name: two eyes in one picture for coloured glasses; empty: none
   /// The film of the right eye, where the output is that of the left eye alone; empty: both eyes are in the output.
   std::filesystem::path right_film;
   std::filesystem::path marks;  ///< "marks_%04d.wst" also keeps each frame's marks, from 1 on; empty: no
@@ -36,7 +38,7 @@ struct RotoscopeFilmOptions {
   /// Returns what is known of a frame, counted from 0; empty: nothing is known.
   std::function<KnownFrame(std::int64_t frame, const Image<Rgb8>& left)> known;
   /// Several ranks paint the film together: each paints whole scenes, and the first writes the film, with the same
-  /// bytes. In this case `scenes` are the film's (find_scenes), and `known` gives no flow.
+  /// bytes. In this case `scenes` are the film's (find_scenes), or its shots, and `known` gives no flow.
   Ranks ranks;
   FilmScenes scenes;
 };

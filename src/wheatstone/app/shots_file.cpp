@@ -1,20 +1,162 @@
 #include "wheatstone/app/shots_file.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <toml++/toml.h>
 
-#include <cmath>
+#include <algorithm>
+#include <array>
+#include <charconv>
 #include <cstddef>
+#include <sstream>
+#include <utility>
+
+#include "wheatstone/error.h"
+#include "wheatstone/files/whole_file.h"
+#include "wheatstone/painting/style_parameters.h"
+#include "wheatstone/video/film_time.h"
 
 namespace wheatstone {
 namespace {
 
-/// "0:02.500", or "1:00:02.500" from an hour on, as `rotoscope --from` takes it.
-std::string time_text(double seconds) {
-  const auto ms = static_cast<std::int64_t>(std::llround(std::max(seconds, 0.0) * 1000));
-  const std::int64_t s = ms / 1000, minutes = s / 60, hours = minutes / 60;
-  if (hours > 0) return fmt::format("{}:{:02}:{:02}.{:03}", hours, minutes % 60, s % 60, ms % 1000);
-  return fmt::format("{}:{:02}.{:03}", minutes, s % 60, ms % 1000);
-}
+namespace fs = std::filesystem;
+
+constexpr std::array<std::string_view, 5> keys_of_shots{"begin", "last", "style", "depth-budget", "zero-parallax"};
+
+/// A [[shot]] that is being read.
+class ShotTable {
+ public:
+  ShotTable(const toml::table& table, std::string shot, const fs::path& folder)
+      : table_(table), shot_(std::move(shot)), folder_(folder) {}
+
+  WrittenShot read(const RotoscopeOptions& all, std::span<const UnusedKey> unused) const {
+    check_keys(unused);
+    WrittenShot shot{.painted = {.style = style(all.style),
+                                 .depth_budget = all.depth_budget,
+                                 .zero_parallax_px = all.zero_parallax_px},
+                     .where = at(table_)};
+    shot.begin = begin();
+    if (const toml::node* last = table_.get("last")) shot.last = frame("last", *last);
+    if (const toml::node* budget = table_.get("depth-budget")) shot.painted.depth_budget = depth_budget(*budget);
+    if (const toml::node* zero = table_.get("zero-parallax")) shot.painted.zero_parallax_px = zero_parallax(*zero);
+    return shot;
+  }
+
+ private:
+  std::string at(const toml::node& node) const { return fmt::format("{}, line {}", shot_, node.source().begin.line); }
+
+  [[noreturn]] void refuse(std::string_view key, const toml::node& node, std::string_view expected) const {
+    throw Error(ErrorKind::bad_input, fmt::format("{}: '{}' is not {}", at(node), key, expected));
+  }
+
+  void check_keys(std::span<const UnusedKey> unused) const {
+    for (const auto& [name, node] : table_) {
+      const std::string_view key = name.str();
+      const auto no_use = std::ranges::find(unused, key, &UnusedKey::key);
+      if (no_use != unused.end())
+        throw Error(ErrorKind::bad_input, fmt::format("{}: '{}' has no effect {}", at(node), key, no_use->why));
+      if (std::ranges::find(keys_of_shots, key) != keys_of_shots.end() || find_parameter(key) != nullptr) continue;
+      std::vector<std::string_view> known(keys_of_shots.begin(), keys_of_shots.end());
+      for (const StyleParameter& parameter : style_parameters()) known.push_back(parameter.name);
+      throw Error(ErrorKind::bad_input,
+                  fmt::format("{}: unknown key '{}', expected one of {}", at(node), key, fmt::join(known, ", ")));
+    }
+  }
+
+  static const StyleParameter* find_parameter(std::string_view key) {
+    const auto found = std::ranges::find(style_parameters(), key, &StyleParameter::name);
+    return found == style_parameters().end() ? nullptr : &*found;
+  }
+
+  std::int64_t frame(std::string_view key, const toml::node& node) const {
+    constexpr std::int64_t most_frames = 1'000'000'000;
+    const auto* number = node.as_integer();
+    if (number == nullptr || number->get() < 1 || number->get() > most_frames)
+      refuse(key, node, "a frame, counted from 1");
+    return number->get();
+  }
+
+  std::variant<std::int64_t, double> begin() const {
+    const toml::node* node = table_.get("begin");
+    if (node == nullptr)
+      throw Error(ErrorKind::bad_input,
+                  fmt::format("{}: has no 'begin', expected its first frame, or a time", at(table_)));
+    if (node->is_integer()) return frame("begin", *node);
+    const auto* text = node->as_string();
+    const std::optional<double> seconds = text != nullptr ? film_time_from(text->get()) : std::nullopt;
+    if (!seconds) refuse("begin", *node, "a frame, counted from 1, or a time, as \"0:02.5\"");
+    return *seconds;
+  }
+
+  std::optional<float> depth_budget(const toml::node& node) const {
+    if (const auto* text = node.as_string(); text != nullptr && text->get() == "full") return std::nullopt;
+    double share = 0;
+    if (const auto* text = node.as_string()) {
+      const std::string& words = text->get();
+      const char* const end = words.data() + words.size();
+      const auto read = std::from_chars(words.data(), end, share);
+      const bool is_percent = read.ec == std::errc() && std::string_view(read.ptr, end) == "%";
+      share = is_percent ? share / 100 : 0;
+    } else {
+      share = node.value<double>().value_or(0);
+    }
+    if (!(share >= 0.001 && share <= 1))
+      refuse("depth-budget", node, "a share of the width from 0.1 to 100 %, as \"3%\" or 0.03, or \"full\"");
+    return static_cast<float>(share);
+  }
+
+  float zero_parallax(const toml::node& node) const {
+    const double pixels = node.is_number() ? node.value<double>().value_or(no_bound) : no_bound;
+    if (!zero_parallax_range.has(pixels))
+      refuse("zero-parallax", node, "a disparity in pixels" + words_of(zero_parallax_range));
+    return static_cast<float>(pixels);
+  }
+
+  Style style(const Style& of_all) const {
+    Style style = of_all;
+    if (const toml::node* name = table_.get("style")) style = named_style(*name, of_all.seed);
+    // The values as they would stand in a style file, which knows how to read them.
+    std::ostringstream file;
+    for (const auto& [key, node] : table_) {
+      if (find_parameter(key.str()) == nullptr) continue;
+      file << key.str() << " = ";
+      node.visit([&file](const auto& value) { file << value; });
+      file << "\n";
+    }
+    apply_toml(file.str(), shot_, style);
+    for (const auto& [key, node] : table_) check_effect(key.str(), node, style);
+    return style;
+  }
+
+  Style named_style(const toml::node& node, std::uint64_t seed) const {
+    const auto* name = node.as_string();
+    if (name == nullptr) refuse("style", node, "the name of a style or of a style file");
+    try {
+      const fs::path path = name->get();
+      const bool is_file = path.extension() == ".toml" || path.has_parent_path();
+      Style style = read_style(is_file ? (folder_ / path).string() : name->get());
+      style.seed = seed;
+      return style;
+    } catch (const Error& error) {
+      throw Error(ErrorKind::bad_input, fmt::format("{}: {}", at(node), error.what()));
+    }
+  }
+
+  void check_effect(std::string_view key, const toml::node& node, const Style& style) const {
+    const StyleParameter* parameter = find_parameter(key);
+    if (key == "propagation" && is_of_strokes(style))
+      throw Error(ErrorKind::bad_input, fmt::format("{}: '{}' has no effect on the strokes of a film", at(node), key));
+    if (parameter == nullptr || is_read_by(*parameter, style.marks)) return;
+    std::vector<std::string_view> works_with;
+    for (const Marks marks : parameter->read_by) works_with.push_back(name_of(marks));
+    throw Error(ErrorKind::bad_input, fmt::format("{}: '{}' has no effect on a painting of {}; it works with {}",
+                                                  at(node), key, name_of(style.marks), fmt::join(works_with, ", ")));
+  }
+
+  const toml::table& table_;
+  std::string shot_;  ///< "shots.toml: shot 2"
+  const fs::path& folder_;
+};
 
 }  // namespace
 
@@ -34,10 +176,41 @@ std::string shots_file_text(std::span<const FoundShot> shots) {
         "# radii = [8, 4, 2]\n"
         "# depth-budget = \"3%\"\n"
         "# zero-parallax = 0\n",
-        i + 1, time_text(shot.begin_s), shot.frames, shot.frames == 1 ? "" : "s", shot.length_s, shot.thumbnail,
+        i + 1, film_time_text(shot.begin_s), shot.frames, shot.frames == 1 ? "" : "s", shot.length_s, shot.thumbnail,
         shot.begin + 1);
   }
   return text;
+}
+
+std::vector<WrittenShot> parse_shots(std::string_view toml, const fs::path& file, const RotoscopeOptions& all,
+                                     std::span<const UnusedKey> unused) {
+  const std::string name = file.string();
+  const auto refuse = [&name](const std::string& what) {
+    throw Error(ErrorKind::bad_input, fmt::format("{}: {}", name, what));
+  };
+  std::vector<WrittenShot> shots;
+  try {
+    const toml::table document = toml::parse(toml);
+    for (const auto& [key, node] : document)
+      if (key.str() != "shot")
+        refuse(fmt::format("line {}: unknown key '{}', expected [[shot]] tables", node.source().begin.line, key.str()));
+    const toml::array* tables = document["shot"].as_array();
+    if (tables == nullptr || tables->empty()) refuse("has no shots, expected [[shot]] tables");
+    for (const toml::node& node : *tables) {
+      const std::string shot = fmt::format("{}: shot {}", name, shots.size() + 1);
+      if (!node.is_table()) throw Error(ErrorKind::bad_input, fmt::format("{}: is no table, expected [[shot]]", shot));
+      shots.push_back(ShotTable(*node.as_table(), shot, file.parent_path()).read(all, unused));
+    }
+  } catch (const toml::parse_error& error) {
+    refuse(fmt::format("line {}: {}", error.source().begin.line, error.description()));
+  }
+  return shots;
+}
+
+std::vector<WrittenShot> read_shots(const fs::path& file, const RotoscopeOptions& all,
+                                    std::span<const UnusedKey> unused) {
+  constexpr std::size_t most_bytes = 1 << 20;
+  return parse_shots(read_whole_file(file, most_bytes), file, all, unused);
 }
 
 }  // namespace wheatstone

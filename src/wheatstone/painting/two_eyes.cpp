@@ -31,7 +31,8 @@ float comfortable_separation(const Painting& painting, std::optional<float> dept
   return depth_px > budget_px ? budget_px / depth_px : 1;
 }
 
-TwoEyes comfortable_eyes(PictureSize frame, const DepthEnds& ends, float depth_budget) {
+TwoEyes comfortable_eyes(PictureSize frame, const DepthEnds& ends, float depth_budget,
+                         std::optional<float> zero_parallax_px) {
   const auto width = static_cast<float>(frame.width);
   const float budget_px = depth_budget * width, before_px = budget_px / 3, behind_px = budget_px - before_px;
   const float depth_px = std::max(ends.nearest_px - ends.farthest_px, 1e-3f);
@@ -43,7 +44,7 @@ TwoEyes comfortable_eyes(PictureSize frame, const DepthEnds& ends, float depth_b
     eyes.separation = std::min(budget_px / (depth_px * scale), 1.f);
     const float shown = eyes.separation * scale;
     const float least = ends.nearest_px - before_px / shown, most = ends.farthest_px + behind_px / shown;
-    eyes.zero_parallax_px = std::clamp(0.f, std::min(least, most), most);
+    eyes.zero_parallax_px = zero_parallax_px.value_or(std::clamp(0.f, std::min(least, most), most));
     scale = width / std::max(width - eyes.separation * std::abs(eyes.zero_parallax_px), width / 2);
   }
   eyes.placement = {.width = frame.width,

@@ -32,8 +32,10 @@ float comfortable_separation(const Painting& painting, std::optional<float> dept
 
 /// Eyes so near together that a film's scene, from its farthest point to its nearest, takes at most `depth_budget` of
 /// the width: a third of it before the screen and two thirds behind it, as broadcasters allow. The film's own screen
-/// plane is kept as far as this permits. If the scene fits already, the eyes are the film's own.
-TwoEyes comfortable_eyes(PictureSize frame, const DepthEnds& ends, float depth_budget);
+/// plane is kept as far as this permits, unless a disparity is given that lies on the screen plane. If the scene fits
+/// already, the eyes are the film's own.
+TwoEyes comfortable_eyes(PictureSize frame, const DepthEnds& ends, float depth_budget,
+                         std::optional<float> zero_parallax_px = {});
 
 /// The disparity of the nearest mark, without outliers; 0 if there are no marks.
 float nearest_disparity(const Painting& painting);

@@ -1,0 +1,188 @@
+// Films whose shots are painted each in its own way: as each would be alone, however the film is made.
+
+#include "wheatstone/app/film_shots.h"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <memory>
+
+#include "scenes/moving_picture.h"
+#include "thread_ranks.h"
+#include "throws_error.h"
+#include "wheatstone/app/film_plan.h"
+#include "wheatstone/app/rotoscope_film.h"
+#include "wheatstone/stereo/packed_pair.h"
+#include "wheatstone/synthetic/synthetic_film.h"
+
+namespace wheatstone::film_shots_test {
+
+namespace fs = std::filesystem;
+
+constexpr int film_frames = 8;
+
+/// Cuts are found before the frames 3 and 6.
+StereoPair eyes_of_frame(int frame) {
+  SyntheticFilmOptions options{.still = {.width = 96, .height = 64, .samples_a_side = 1}, .frames = 12};
+  options.cut = 0;
+  StereoPair eyes = make_synthetic_film_frame(options, frame).pictures;
+  if (frame < 3 || frame >= 6) return eyes;
+  for (Image<Rgb8>* picture : {&eyes.left, &eyes.right})
+    for (Rgb8& pixel : picture->pixels())
+      pixel = {static_cast<std::uint8_t>(255 - pixel.b), pixel.r, static_cast<std::uint8_t>(255 - pixel.g)};
+  return eyes;
+}
+
+/// One ends where no cut is found; another goes on over one.
+std::vector<FilmShot> shots_of_film() {
+  return {{0, style_by_name("impressionist"), 0.03f, {}},
+          {2, style_by_name("posterise"), {}, {}},
+          {3, style_by_name("expressionist"), 0.01f, 2.f}};
+}
+
+class FilmOfShots : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder_ = std::make_unique<TemporaryFolder>();
+    FilmWriter writer(file("film.mkv"), {.preset = "ultrafast", .layout = StereoLayout::left_right});
+    for (int i = 0; i < film_frames; ++i) {
+      const StereoPair eyes = eyes_of_frame(i);
+      writer.write({put_together(eyes.left, eyes.right, StereoLayout::left_right), i, {1, 25}, 1});
+    }
+    writer.finish();
+  }
+  static void TearDownTestSuite() { folder_.reset(); }
+  static fs::path file(const std::string& name) { return *folder_ / name; }
+  static StereoFilmReader source() { return open_stereo_film(file("film.mkv")); }
+
+  static RotoscopeFilmOptions usual() {
+    RotoscopeFilmOptions options;
+    options.shots = shots_of_film();
+    options.writing = {.preset = "ultrafast", .layout = StereoLayout::left_right};
+    options.frames_between_checkpoints = 4;
+    options.version = "1.2.3";
+    return options;
+  }
+
+  static RotoscopedFilm paint(const fs::path& output, const RotoscopeFilmOptions& options,
+                              const Progress& progress = {}) {
+    StereoFilmReader film = source();
+    return rotoscope_film(film, output, options, progress);
+  }
+
+ private:
+  static inline std::unique_ptr<TemporaryFolder> folder_;
+};
+
+TEST_F(FilmOfShots, HasTheScenesThatTheyAreAndNoOthers) {
+  RotoscopeFilmOptions options = usual();
+  EXPECT_EQ(paint(file("own.mkv"), options).totals.scenes, 3);
+  options.shots.resize(1);
+  EXPECT_EQ(paint(file("one.mkv"), options).totals.scenes, 1);
+  options.shots.clear();
+  EXPECT_EQ(paint(file("found.mkv"), options).totals.scenes, 3);
+}
+
+TEST_F(FilmOfShots, PaintsEachAsAlone) {
+  const std::vector<FilmShot> shots = shots_of_film();
+  RotoscopeState film, alone;
+  std::vector<FilmShot> this_one;
+  for (int frame = 0; frame < film_frames; ++frame) {
+    for (const FilmShot& shot : shots)
+      if (shot.begin == frame) {
+        alone = {};
+        this_one = {shot};
+        this_one[0].begin = 0;
+      }
+    const RotoscopedFrame a = rotoscope_frame(eyes_of_frame(frame), options_of_frame({}, shots, film.frames), film);
+    const RotoscopedFrame b =
+        rotoscope_frame(eyes_of_frame(frame), options_of_frame({}, this_one, alone.frames), alone);
+    EXPECT_EQ(a.scene_begins, b.scene_begins) << frame;
+    EXPECT_EQ(a.painting, b.painting) << frame;
+    EXPECT_EQ(std::get<StereoPair>(a.pictures).left, std::get<StereoPair>(b.pictures).left) << frame;
+    EXPECT_EQ(std::get<StereoPair>(a.pictures).right, std::get<StereoPair>(b.pictures).right) << frame;
+  }
+}
+
+TEST_F(FilmOfShots, ThatBeginWhereCutsAreFoundIsTheFilmWithoutThem) {
+  RotoscopeFilmOptions options = usual();
+  options.frames.depth_budget = 0.03f;
+  options.shots.clear();
+  paint(file("plain.mkv"), options);
+  for (const std::int64_t begin : {0, 3, 6}) options.shots.push_back({begin, options.frames.style, 0.03f, {}});
+  paint(file("listed.mkv"), options);
+  EXPECT_TRUE(bytes_of(file("listed.mkv")) == bytes_of(file("plain.mkv")));
+}
+
+TEST_F(FilmOfShots, HasTheSameBytesByRanksAndByAPlanAndWhenItWasStopped) {
+  const RotoscopeFilmOptions options = usual();
+  paint(file("whole.mkv"), options);
+  const std::string whole = bytes_of(file("whole.mkv"));
+
+  as_ranks(2, [&](const Ranks& ranks) {
+    RotoscopeFilmOptions of_rank = options;
+    of_rank.ranks = ranks;
+    of_rank.scenes = {{0, 2, 3}, film_frames};
+    paint(file("shared.mkv"), of_rank);
+  });
+  EXPECT_TRUE(bytes_of(file("shared.mkv")) == whole);
+
+  RotoscopeFilmOptions planned = options;
+  planned.plan = file("a.plan");
+  paint(file("joined.mkv"), planned);
+  const FilmPlan plan = read_film_plan(planned.plan, options.version);
+  draw_film_part(planned.plan, plan, {5, film_frames});
+  draw_film_part(planned.plan, plan, {1, 4});
+  join_film_parts(planned.plan, plan);
+  EXPECT_TRUE(bytes_of(file("joined.mkv")) == whole);
+
+  const Progress stop = [](std::string_view step, double) {
+    if (step.starts_with("painting frame 6")) throw Error(ErrorKind::interrupted, "interrupted");
+  };
+  expect_error(ErrorKind::interrupted, "the first 4 frames are kept in ",
+               [&] { paint(file("stopped.mkv"), options, stop); });
+  RotoscopeFilmOptions again = options;
+  again.resume = true;
+  again.shots[2].zero_parallax_px = 1;
+  expect_error(ErrorKind::wrong_usage, "stopped.mkv", [&] { paint(file("stopped.mkv"), again); });
+  again.shots = options.shots;
+  EXPECT_EQ(paint(file("stopped.mkv"), again).resumed_frames, 4);
+  EXPECT_TRUE(bytes_of(file("stopped.mkv")) == whole);
+}
+
+/// The horizontal shift between two pictures at which they differ least: x_left − x_right.
+int shift_between(const Image<Rgb8>& left, const Image<Rgb8>& right) {
+  constexpr int farthest = 12;
+  int best = 0;
+  double least = 1e300;
+  for (int shift = -farthest; shift <= farthest; ++shift) {
+    double sum = 0;
+    for (int y = 0; y < left.height(); ++y)
+      for (int x = farthest; x < left.width() - farthest; ++x)
+        sum += std::abs(left(x, y).r - right(x - shift, y).r) + std::abs(left(x, y).g - right(x - shift, y).g);
+    if (sum < least) {
+      least = sum;
+      best = shift;
+    }
+  }
+  return best;
+}
+
+TEST_F(FilmOfShots, PutsTheDisparityThatIsAskedForOnTheScreen) {
+  // A plane at a disparity of 6 pixels.
+  const StereoPair eyes{moving_picture(160, 96, 0), moving_picture(160, 96, 0, 6)};
+  const auto shift_with = [&](std::optional<float> zero_parallax_px) {
+    RotoscopeOptions options;
+    options.style = style_by_name("impressionist");
+    options.zero_parallax_px = zero_parallax_px;
+    RotoscopeState state;
+    const auto pictures = std::get<StereoPair>(rotoscope_frame(eyes, options, state).pictures);
+    return shift_between(pictures.left, pictures.right);
+  };
+  EXPECT_EQ(shift_with({}), 6);
+  EXPECT_EQ(shift_with(6.f), 0);
+  EXPECT_EQ(shift_with(2.f), 4);
+}
+
+}  // namespace wheatstone::film_shots_test

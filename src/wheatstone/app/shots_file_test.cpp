@@ -1,0 +1,165 @@
+#include "wheatstone/app/shots_file.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+
+#include "scenes/moving_picture.h"
+#include "throws_error.h"
+#include "wheatstone/app/place_shots.h"
+
+namespace wheatstone::shots_file_test {
+
+namespace fs = std::filesystem;
+using testing::ElementsAre;
+
+TEST(ShotsFile, SetsWhatAShotNamesAndLeavesTheRestAsForAll) {
+  RotoscopeOptions all;
+  all.style = style_by_name("impressionist");
+  all.style.seed = 7;
+  all.depth_budget = 0.03f;
+  all.zero_parallax_px = 2;
+  const std::vector<WrittenShot> shots = parse_shots(R"([[shot]]
+begin = 1
+[[shot]]
+begin = "0:02.5"
+last = 90
+radii = [9, 3]
+depth-budget = "5%"
+[[shot]]
+begin = 91
+style = "mosaic"
+depth-budget = "full"
+zero-parallax = -4.5
+)",
+                                                     "s.toml", all);
+  ASSERT_EQ(shots.size(), 3u);
+  EXPECT_EQ(std::get<std::int64_t>(shots[0].begin), 1);
+  EXPECT_EQ(shots[0].painted.style, all.style);
+  EXPECT_EQ(shots[0].painted.depth_budget, 0.03f);
+  EXPECT_EQ(shots[0].painted.zero_parallax_px, 2);
+  EXPECT_EQ(std::get<double>(shots[1].begin), 2.5);
+  EXPECT_EQ(shots[1].last, 90);
+  Style radii = all.style;
+  radii.radii_px = {9, 3};
+  EXPECT_EQ(shots[1].painted.style, radii);
+  EXPECT_EQ(shots[1].painted.depth_budget, 0.05f);
+  EXPECT_EQ(shots[2].painted.style.marks, Marks::tiles);
+  EXPECT_EQ(shots[2].painted.style.seed, 7u);
+  EXPECT_EQ(shots[2].painted.depth_budget, std::nullopt);
+  EXPECT_EQ(shots[2].painted.zero_parallax_px, -4.5f);
+  EXPECT_EQ(shots[2].where, "s.toml: shot 3, line 8");
+}
+
+TEST(ShotsFile, NamesStyleFilesAsSeenFromItsFolder) {
+  const TemporaryFolder folder;
+  put_bytes(folder / "loose.toml", "style = \"impressionist\"\ngrid = 2.0\n");
+  put_bytes(folder / "shots.toml", "[[shot]]\nbegin = 1\nstyle = \"loose.toml\"\ncurvature = 0.5\n");
+  const std::vector<WrittenShot> shots = read_shots(folder / "shots.toml", {});
+  EXPECT_EQ(shots.at(0).painted.style.grid, 2);
+  EXPECT_EQ(shots.at(0).painted.style.curvature, 0.5);
+}
+
+TEST(ShotsFile, ThatWasListedChangesNothing) {
+  const std::vector<FoundShot> found{{0, 5, 0, 0.2, "a_001.jpg"}, {5, 4, 0.2, 0.16, "a_002.jpg"}};
+  RotoscopeOptions all;
+  all.style = style_by_name("pointillist");
+  all.depth_budget = 0.02f;
+  const std::string text = shots_file_text(found);
+  const std::vector<WrittenShot> shots = parse_shots(text, "s.toml", all);
+  ASSERT_EQ(shots.size(), 2u);
+  EXPECT_EQ(std::get<std::int64_t>(shots[1].begin), 6);
+  for (const WrittenShot& shot : shots) {
+    EXPECT_EQ(shot.painted.style, all.style);
+    EXPECT_EQ(shot.painted.depth_budget, all.depth_budget);
+    EXPECT_EQ(shot.last, std::nullopt);
+  }
+  // What stands there as a comment is understood.
+  std::string set = text;
+  for (std::size_t at = 0; (at = set.find("\n# ", at)) != std::string::npos;)
+    if (set.compare(at, 7, "\n# The ") != 0 && set.find("[[shot]]  #") < at) {
+      set.replace(at, 3, "\n");
+    } else {
+      at += 3;
+    }
+  EXPECT_EQ(parse_shots(set, "s.toml", all).at(1).painted.zero_parallax_px, 0);
+}
+
+TEST(ShotsFile, ThatIsWrongIsRefusedWithItsPlace) {
+  const std::array<std::array<std::string, 2>, 19> files{{
+      {"", "s.toml: has no shots, expected [[shot]] tables"},
+      {"[[shot]\n", "s.toml: line 1: "},
+      {"[[shots]]\nbegin = 1\n", "s.toml: line 1: unknown key 'shots'"},
+      {"shot = [1]\n", "s.toml: shot 1: is no table"},
+      {"[[shot]]\n", "s.toml: shot 1, line 1: has no 'begin'"},
+      {"[[shot]]\nbegin = 0\n", "s.toml: shot 1, line 2: 'begin' is not a frame"},
+      {"[[shot]]\nbegin = 1.5\n", "'begin' is not a frame, counted from 1, or a time"},
+      {"[[shot]]\nbegin = \"1:75\"\n", "'begin' is not a frame, counted from 1, or a time"},
+      {"[[shot]]\nbegin = 1\nlast = \"a\"\n", "s.toml: shot 1, line 3: 'last' is not a frame"},
+      {"[[shot]]\nbegin = 1\n[[shot]]\nbegin = 2\nstile = 1\n", "s.toml: shot 2, line 5: unknown key 'stile'"},
+      {"[[shot]]\nbegin = 1\nstyle = \"oils\"\n", "s.toml: shot 1, line 3: style: there is no 'oils'"},
+      {"[[shot]]\nbegin = 1\nstyle = \"not/there.toml\"\n", "not/there.toml: cannot be opened"},
+      {"[[shot]]\nbegin = 1\ngrid = \"wide\"\n", "s.toml: shot 1: grid: is 'wide', expected a number"},
+      {"[[shot]]\nbegin = 1\ngrid = { a = 1 }\n", "s.toml: shot 1: grid: is 'a table or date', expected a number"},
+      {"[[shot]]\nbegin = 1\nstyle = \"mosaic\"\ngrid = 2.0\n", "line 4: 'grid' has no effect on a painting of tiles"},
+      {"[[shot]]\nbegin = 1\npropagation = \"raster\"\n",
+       "line 3: 'propagation' has no effect on the strokes of a film"},
+      {"[[shot]]\nbegin = 1\ndepth-budget = 3\n", "line 3: 'depth-budget' is not a share of the width"},
+      {"[[shot]]\nbegin = 1\ndepth-budget = \"3\"\n", "line 3: 'depth-budget' is not a share of the width"},
+      {"[[shot]]\nbegin = 1\nzero-parallax = nan\n", "line 3: 'zero-parallax' is not a disparity in pixels"},
+  }};
+  for (const auto& [text, message] : files)
+    expect_error(ErrorKind::bad_input, message, [&text = text] { parse_shots(text, "s.toml", {}); });
+  const std::array<UnusedKey, 1> unused{{{"depth-budget", "on marks (.wst)"}}};
+  expect_error(ErrorKind::bad_input, "s.toml: shot 1, line 3: 'depth-budget' has no effect on marks (.wst)",
+               [&] { parse_shots("[[shot]]\nbegin = 1\ndepth-budget = \"3%\"\n", "s.toml", {}, unused); });
+}
+
+/// Where shots of a film of 20 frames at 25 a second begin.
+class PlacedShots : public testing::Test {
+ protected:
+  PlacedShots() { make_film(folder_ / "a.mkv", 20, {.preset = "ultrafast"}); }
+  std::vector<std::int64_t> begins(const std::string& toml, const FilmReaderOptions& reading = {}) const {
+    std::vector<std::int64_t> begins;
+    const FilmFiles film{folder_ / "a.mkv", {}, StereoLayout::mono};
+    for (const FilmShot& shot : place_shots(parse_shots(toml, "s.toml", {}), film, reading))
+      begins.push_back(shot.begin);
+    return begins;
+  }
+  void expect_refused(const std::string& toml, const std::string& message) const {
+    expect_error(ErrorKind::bad_input, message, [&] { begins(toml); });
+  }
+
+ private:
+  TemporaryFolder folder_;
+};
+
+TEST_F(PlacedShots, BeginWithTheFrameThatTheyNameOrThatIsShownThen) {
+  EXPECT_THAT(begins("[[shot]]\nbegin = 1\n[[shot]]\nbegin = 6\n[[shot]]\nbegin = \"0:00.48\"\n"),
+              ElementsAre(0, 5, 12));
+  EXPECT_THAT(begins("[[shot]]\nbegin = \"0\"\nlast = 10\n[[shot]]\nbegin = 11\nlast = 20\n"), ElementsAre(0, 10));
+  EXPECT_THAT(begins("[[shot]]\nbegin = 1\n[[shot]]\nbegin = \"0.45\"\n"), ElementsAre(0, 12)) << "as --from";
+}
+
+TEST_F(PlacedShots, OfAPartOfTheFilmAreThoseThatItHasFramesOf) {
+  const std::string toml = "[[shot]]\nbegin = 1\n[[shot]]\nbegin = 6\n[[shot]]\nbegin = 13\n[[shot]]\nbegin = 18\n";
+  EXPECT_THAT(begins(toml, {.from_s = 0.32, .to_s = 0.6}), ElementsAre(0, 4));
+  EXPECT_THAT(begins(toml, {.every = 4}), ElementsAre(0, 2, 3));
+}
+
+TEST_F(PlacedShots, ThatDoNotFitTheFilmAreRefused) {
+  const std::string first = "[[shot]]\nbegin = 1\n";
+  expect_refused("[[shot]]\nbegin = 2\n", "s.toml: shot 1, line 1: begins with frame 2, expected 1");
+  expect_refused(first + "[[shot]]\nbegin = 21\n", "s.toml: shot 2, line 3: begins beyond the end of the film, which");
+  expect_refused(first + "[[shot]]\nbegin = \"0:09\"\n", "begins beyond the end of the film, which has 20 frames");
+  expect_refused(first + "[[shot]]\nbegin = 9\n[[shot]]\nbegin = 5\n", "s.toml: shot 3, line 5: begins with frame 5");
+  expect_refused(first + "[[shot]]\nbegin = 9\n[[shot]]\nbegin = \"0.1\"\n", "expected a later one than 9");
+  expect_refused(first + "[[shot]]\nbegin = 1\n", "s.toml: shot 2, line 3: begins with frame 1");
+  expect_refused(first + "last = 9\n[[shot]]\nbegin = 9\n", "next shot begins with frame 9: they overlap");
+  expect_refused(first + "last = 7\n[[shot]]\nbegin = 9\n", "frames between them belong to no shot");
+  expect_refused(first + "last = 21\n", "s.toml: shot 1, line 1: ends with frame 21, but the film has 20 frames");
+  expect_refused(first + "last = 19\n", "ends with frame 19, but the film goes on");
+}
+
+}  // namespace wheatstone::shots_file_test
