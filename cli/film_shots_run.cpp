@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "wheatstone/app/film_scenes.h"
 #include "wheatstone/app/list_shots.h"
 #include "wheatstone/app/place_shots.h"
 #include "wheatstone/error.h"
@@ -43,6 +44,15 @@ std::vector<FilmShot> shots_from(const ShotsArguments& arguments, const FilmFile
   if (!no_budget.empty()) unused.push_back({"depth-budget", no_budget});
   if (!no_plane.empty()) unused.push_back({"zero-parallax", no_plane});
   return place_shots(read_shots(arguments.file, options.frames, unused), film, options.reading, session.progress);
+}
+
+std::vector<FilmShot> shots_found(const FilmFiles& film, const RotoscopeFilmOptions& options, const Session& session) {
+  StereoFilmReader looked_at = open_film(film, options.reading);
+  const RotoscopeOptions& all = options.frames;
+  std::vector<FilmShot> shots;
+  for (const std::int64_t begin : find_scenes(looked_at, session.ranks, session.progress).begins)
+    shots.push_back({begin, all.style, all.depth_budget, all.zero_parallax_px});
+  return shots;
 }
 
 Report run_list(const ShotsArguments& arguments, const FilmFiles& film, const FilmReaderOptions& reading,

@@ -32,6 +32,9 @@ struct LimitedFilm {
 std::vector<FilmShot> shots_from(const ShotsArguments& arguments, const FilmFiles& film,
                                  const RotoscopeFilmOptions& options, LimitedFilm limited, const Session& session);
 
+/// The shots from cut to cut, painted alike. Processes of mpirun share the looking.
+std::vector<FilmShot> shots_found(const FilmFiles& film, const RotoscopeFilmOptions& options, const Session& session);
+
 /// Writes a shots file of a film.
 Report run_list(const ShotsArguments& arguments, const FilmFiles& film, const FilmReaderOptions& reading,
                 const Session& session);

@@ -335,6 +335,7 @@ Report run_rotoscope(const RotoscopeArguments& given, const Session& session) {
   if (!film.right.empty()) options.made_from.push_back(film.right);
   const std::vector<std::string> left_out = side_streams_left_out(arguments.output, options.writing);
   if (!left_out.empty()) remark(session, fmt::format("wheatstone: {}", fmt::join(left_out, "; ")));
+  if (options.on_twos && options.shots.empty()) options.shots = shots_found(film, options, session);
   take_ranks(film, options, session);
   const RotoscopedFilm result =
       make_or_say_how_to_continue([&] { return rotoscope_film(source, arguments.output, options, session.progress); });
@@ -423,6 +424,8 @@ Rows time_rows(RotoscopeArguments& a) {
        row("--zero-parallax", number(frames.zero_parallax_px, zero_parallax_range),
            "Disparity in pixels that lies on the screen plane; chosen from the depth by default",
            {when([&a] { return writes_marks(a); }, "on marks (.wst); they have the depth of the film")}),
+       row("--on-twos", flag(a.options.on_twos),
+           "Make a new painting for every second frame only, and show it twice, as in hand-drawn films", {truth}),
        row("--frame-by-frame", flag(frames.anew), "Paint every frame separately, which flickers; for comparison"),
        row("--truth", text(a.truth),
            "Folder of 'synth film' whose exact flow and disparities are used instead of estimates", {with_depth(a)})});

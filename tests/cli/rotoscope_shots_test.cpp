@@ -131,4 +131,17 @@ TEST(RotoscopeShots, AreRefusedWhereSomethingElseSaysThem) {
   }
 }
 
+TEST(RotoscopeShots, OnTwosFindsTheCutsByItself) {
+  const TemporaryFolder folder;
+  make_synthetic(folder);
+  const ProgramResult result = rotoscope(folder, {"--style", "posterise", "--on-twos", "-o", "t_%d.wst"});
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_THAT(result.output, HasSubstr("8 frames in 2 scenes"));
+  EXPECT_TRUE(bytes_of(folder / "t_1.wst") == bytes_of(folder / "t_2.wst"));
+  EXPECT_FALSE(bytes_of(folder / "t_2.wst") == bytes_of(folder / "t_3.wst"));
+  const ProgramResult truth = rotoscope(folder, {"--truth", "film", "--on-twos"});
+  EXPECT_EQ(truth.exit_code, 2);
+  EXPECT_THAT(truth.errors, HasSubstr("--on-twos: has no effect with --truth"));
+}
+
 }  // namespace wheatstone::rotoscope_shots_test

@@ -20,4 +20,8 @@ RotoscopeOptions options_of_frame(const RotoscopeOptions& options, std::span<con
   return of_frame;
 }
 
+bool begins_shot(std::span<const FilmShot> shots, std::int64_t frame) {
+  return std::ranges::binary_search(shots, frame, {}, &FilmShot::begin);
+}
+
 }  // namespace wheatstone

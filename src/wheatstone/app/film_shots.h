@@ -21,4 +21,7 @@ struct FilmShot {
 /// none, `options` say it.
 RotoscopeOptions options_of_frame(const RotoscopeOptions& options, std::span<const FilmShot> shots, std::int64_t frame);
 
+/// Whether a shot begins with the frame.
+bool begins_shot(std::span<const FilmShot> shots, std::int64_t frame);
+
 }  // namespace wheatstone

@@ -71,6 +71,38 @@ class FilmOfShots : public testing::Test {
     return rotoscope_film(film, output, options, progress);
   }
 
+  static void stop_after_five(std::string_view step, double /*share*/) {
+    if (step.starts_with("painting frame 6")) throw Error(ErrorKind::interrupted, "interrupted");
+  }
+
+  static void expect_same_however_made(const RotoscopeFilmOptions& options, const fs::path& whole_film) {
+    const std::string whole = bytes_of(whole_film);
+    as_ranks(2, [&](const Ranks& ranks) {
+      RotoscopeFilmOptions of_rank = options;
+      of_rank.ranks = ranks;
+      of_rank.scenes = {{0, 2, 3}, film_frames};
+      paint(file("shared.mkv"), of_rank);
+    });
+    EXPECT_TRUE(bytes_of(file("shared.mkv")) == whole);
+
+    RotoscopeFilmOptions planned = options;
+    planned.plan = file("a.plan");
+    fs::remove_all(planned.plan);
+    paint(file("joined.mkv"), planned);
+    const FilmPlan plan = read_film_plan(planned.plan, options.version);
+    draw_film_part(planned.plan, plan, {5, film_frames});
+    draw_film_part(planned.plan, plan, {1, 4});
+    join_film_parts(planned.plan, plan);
+    EXPECT_TRUE(bytes_of(file("joined.mkv")) == whole);
+
+    RotoscopeFilmOptions again = options;
+    expect_error(ErrorKind::interrupted, "the first 4 frames are kept in ",
+                 [&] { paint(file("stopped.mkv"), again, stop_after_five); });
+    again.resume = true;
+    EXPECT_EQ(paint(file("stopped.mkv"), again).resumed_frames, 4);
+    EXPECT_TRUE(bytes_of(file("stopped.mkv")) == whole);
+  }
+
  private:
   static inline std::unique_ptr<TemporaryFolder> folder_;
 };
@@ -116,39 +148,71 @@ TEST_F(FilmOfShots, ThatBeginWhereCutsAreFoundIsTheFilmWithoutThem) {
 }
 
 TEST_F(FilmOfShots, HasTheSameBytesByRanksAndByAPlanAndWhenItWasStopped) {
-  const RotoscopeFilmOptions options = usual();
-  paint(file("whole.mkv"), options);
-  const std::string whole = bytes_of(file("whole.mkv"));
+  paint(file("whole.mkv"), usual());
+  expect_same_however_made(usual(), file("whole.mkv"));
+}
 
-  as_ranks(2, [&](const Ranks& ranks) {
-    RotoscopeFilmOptions of_rank = options;
-    of_rank.ranks = ranks;
-    of_rank.scenes = {{0, 2, 3}, film_frames};
-    paint(file("shared.mkv"), of_rank);
-  });
-  EXPECT_TRUE(bytes_of(file("shared.mkv")) == whole);
-
-  RotoscopeFilmOptions planned = options;
-  planned.plan = file("a.plan");
-  paint(file("joined.mkv"), planned);
-  const FilmPlan plan = read_film_plan(planned.plan, options.version);
-  draw_film_part(planned.plan, plan, {5, film_frames});
-  draw_film_part(planned.plan, plan, {1, 4});
-  join_film_parts(planned.plan, plan);
-  EXPECT_TRUE(bytes_of(file("joined.mkv")) == whole);
-
-  const Progress stop = [](std::string_view step, double) {
-    if (step.starts_with("painting frame 6")) throw Error(ErrorKind::interrupted, "interrupted");
-  };
+TEST_F(FilmOfShots, IsNotGoneOnWithByOthers) {
+  RotoscopeFilmOptions options = usual();
   expect_error(ErrorKind::interrupted, "the first 4 frames are kept in ",
-               [&] { paint(file("stopped.mkv"), options, stop); });
-  RotoscopeFilmOptions again = options;
-  again.resume = true;
-  again.shots[2].zero_parallax_px = 1;
-  expect_error(ErrorKind::wrong_usage, "stopped.mkv", [&] { paint(file("stopped.mkv"), again); });
-  again.shots = options.shots;
-  EXPECT_EQ(paint(file("stopped.mkv"), again).resumed_frames, 4);
-  EXPECT_TRUE(bytes_of(file("stopped.mkv")) == whole);
+               [&] { paint(file("begun.mkv"), options, stop_after_five); });
+  options.resume = true;
+  options.shots[2].zero_parallax_px = 1;
+  expect_error(ErrorKind::wrong_usage, "begun.mkv", [&] { paint(file("begun.mkv"), options); });
+  options.shots = shots_of_film();
+  options.on_twos = true;
+  expect_error(ErrorKind::wrong_usage, "begun.mkv", [&] { paint(file("begun.mkv"), options); });
+}
+
+TEST_F(FilmOfShots, OnTwosShowsEachPaintingTwiceAndOneAtOnceWhereAShotBegins) {
+  RotoscopeFilmOptions options = usual();
+  options.on_twos = true;
+  options.shots[1].begin = 1;
+  options.marks = file("twos_%d.wst");
+  options.writing.codec = "ffv1";
+  const RotoscopedFilm twos = paint(file("twos.mkv"), options);
+  EXPECT_EQ(twos.frames, film_frames);
+  // Shots begin with 0, 1 and 3.
+  const std::vector<Frame> frames = frames_of(file("twos.mkv"));
+  ASSERT_EQ(frames.size(), std::size_t{film_frames});
+  for (int i = 1; i < film_frames; ++i) {
+    const bool same = i == 5 || i == 7;
+    const auto at = static_cast<std::size_t>(i);
+    EXPECT_EQ(frames[at].picture == frames[at - 1].picture, same) << i;
+    EXPECT_EQ(bytes_of(file(fmt::format("twos_{}.wst", i + 1))) == bytes_of(file(fmt::format("twos_{}.wst", i))), same);
+    EXPECT_GT(frames[at].pts, frames[at - 1].pts);
+  }
+  // The paintings are those of a film of every second frame.
+  RotoscopeFilmOptions half = options;
+  half.on_twos = false;
+  half.reading.every = 2;
+  half.marks = file("half_%d.wst");
+  half.shots = {{0, options.shots[2].style, options.shots[2].depth_budget, options.shots[2].zero_parallax_px}};
+  StereoFilmReader every_second = open_stereo_film(file("film.mkv"), {}, {.from_s = 3.5 / 25, .every = 2});
+  rotoscope_film(every_second, file("half.mkv"), half);
+  options.marks = file("late_%d.wst");
+  options.shots = {{0, half.shots[0].style, {}, {}}, {4, half.shots[0].style, 0.01f, 2.f}};
+  paint(file("late.mkv"), options);
+  EXPECT_TRUE(bytes_of(file("late_5.wst")) == bytes_of(file("half_1.wst")));
+  EXPECT_TRUE(bytes_of(file("late_7.wst")) == bytes_of(file("half_2.wst")));
+}
+
+TEST_F(FilmOfShots, OnTwosHasTheSameBytesByRanksAndByAPlanAndWhenItWasStopped) {
+  RotoscopeFilmOptions options = usual();
+  options.on_twos = true;
+  paint(file("twos_whole.mkv"), options);
+  expect_same_however_made(options, file("twos_whole.mkv"));
+}
+
+TEST_F(FilmOfShots, OnTwosNeedsShotsAndCheckpointsBetweenPairs) {
+  RotoscopeFilmOptions options = usual();
+  options.on_twos = true;
+  options.frames_between_checkpoints = 3;
+  expect_error(ErrorKind::wrong_usage, "checkpoint: is 3, expected an even number",
+               [&] { paint(file("odd.mkv"), options); });
+  options.frames_between_checkpoints = 4;
+  options.shots.clear();
+  expect_error(ErrorKind::wrong_usage, "on twos: has no shots", [&] { paint(file("odd.mkv"), options); });
 }
 
 /// The horizontal shift between two pictures at which they differ least: x_left − x_right.

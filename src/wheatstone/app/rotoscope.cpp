@@ -359,6 +359,13 @@ PlannedFilmFrame plan_film_frame(const StereoPair& photographed, const Rotoscope
   return result;
 }
 
+void repeat_film_frame(const PlannedFilmFrame& before, RotoscopeState& state) {
+  ++state.frames;
+  for (const Layer& layer : layers_of(before.painting))
+    state.totals.strokes += static_cast<std::int64_t>(count_strokes(layer));
+  state.totals.moved_frames += are_moved(before.eyes) ? 1 : 0;
+}
+
 RotoscopedFrame rotoscope_frame(const StereoPair& photographed, const RotoscopeOptions& options, RotoscopeState& state,
                                 const KnownFrame* known, const Progress& progress) {
   RotoscopedFrame result{plan_film_frame(photographed, options, state, known, progress), {}};

@@ -129,6 +129,9 @@ struct RotoscopedFrame : PlannedFilmFrame {
 PlannedFilmFrame plan_film_frame(const StereoPair& photographed, const RotoscopeOptions& options, RotoscopeState& state,
                                  const KnownFrame* known = nullptr, const Progress& progress = {});
 
+/// Goes on by a frame that shows the painting of the one before again.
+void repeat_film_frame(const PlannedFilmFrame& before, RotoscopeState& state);
+
 /// Plans the frame and draws it (draw_film_frame). The state's totals learn how much of it is bare.
 RotoscopedFrame rotoscope_frame(const StereoPair& photographed, const RotoscopeOptions& options, RotoscopeState& state,
                                 const KnownFrame* known = nullptr, const Progress& progress = {});

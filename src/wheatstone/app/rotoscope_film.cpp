@@ -29,6 +29,31 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 /// Processor time of all threads of this process.
 double processor_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
+/// Whether a frame shows the painting of the one before. Pairs are those of the whole film, so that none of them lies
+/// across a checkpoint or across what two ranks paint.
+bool is_repeated(const RotoscopeFilmOptions& options, std::int64_t frame) {
+  return options.on_twos && frame % 2 == 1 && !begins_shot(options.shots, frame);
+}
+
+void check_twos(const RotoscopeFilmOptions& options) {
+  if (!options.on_twos) return;
+  if (options.shots.empty()) throw Error(ErrorKind::wrong_usage, "on twos: has no shots, expected those of the film");
+  if (options.frames_between_checkpoints % 2 != 0)
+    throw Error(ErrorKind::wrong_usage,
+                fmt::format("checkpoint: is {}, expected an even number, because each painting is shown twice",
+                            options.frames_between_checkpoints));
+}
+
+/// A frame that may be shown again.
+struct ShownFrame {
+  PlannedFilmFrame planned;
+  Image<Rgb8> picture;  ///< as frame_of has it; empty in a plan
+};
+
+Frame again(const ShownFrame& shown, const StereoFrame& source) {
+  return {shown.picture, source.pts, source.time_base, source.duration};
+}
+
 /// A painted frame in one picture, and when it is shown.
 Frame frame_of(FramePictures pictures, const StereoFrame& source, const RotoscopeFilmOptions& options) {
   const StereoLayout layout = options.right_film.empty() ? options.writing.layout : StereoLayout::left_right;
@@ -85,6 +110,7 @@ RotoscopedFilm paint_frames(StereoFilmReader& source, FilmOutput& output, const 
   const auto start = std::chrono::steady_clock::now();
   const double processor_start = processor_seconds();
   film.frames = film.resumed_frames;
+  ShownFrame shown;
   for (StereoFrame frame; source.read(frame); ++film.frames) {
     const std::string text = step_text(film.frames, expected, film.resumed_frames, seconds_since(start));
     const double share =
@@ -97,12 +123,19 @@ RotoscopedFilm paint_frames(StereoFilmReader& source, FilmOutput& output, const 
       add(made, film);
       if (!made.rows_note.empty()) film.notes.push_back(note_of(film.frames, made.rows_note));
     };
-    if (output.is_plan()) {
-      keep(make_frame_of(plan_film_frame, frame, options, state, within));
+    if (is_repeated(options, state.frames)) {
+      repeat_film_frame(shown.planned, state);
+      output.write_marks(shown.planned, frame, state);
+      if (!output.is_plan()) output.write(again(shown, frame), state);
+    } else if (output.is_plan()) {
+      shown.planned = make_frame_of(plan_film_frame, frame, options, state, within);
+      keep(shown.planned);
     } else {
       RotoscopedFrame painted = make_frame_of(rotoscope_frame, frame, options, state, within);
       keep(painted);
-      output.write(frame_of(std::move(painted.pictures), frame, options), state);
+      Frame made = frame_of(std::move(painted.pictures), frame, options);
+      if (options.on_twos) shown = {std::move(painted), made.picture};
+      output.write(std::move(made), state);
     }
   }
   if (film.frames == 0) throw Error(ErrorKind::wrong_usage, "the film has no frame in the requested time range");
@@ -171,23 +204,32 @@ class SharedWork {
     if (goes_on) state = read_rotoscope_state(state_file(path_, done_));
     state.frames = part.begin;
     state.totals = {};
+    ShownFrame shown;
     for (StereoFrame frame; read_ < part.end; ++read_) {
       if (!source_.read(frame))
         throw Error(ErrorKind::bad_input, fmt::format("the film ended after {} frames, expected {} as at first", read_,
                                                       options_.scenes.frames));
       const Progress within = [&](std::string_view, double) { tell(written.frames); };
       within("", 0);
-      pass(make_frame_of(rotoscope_frame, frame, options_, state, within), frame, state);
+      if (is_repeated(options_, state.frames)) {
+        repeat_film_frame(shown.planned, state);
+        pass(shown.planned, again(shown, frame), {}, state);
+      } else {
+        RotoscopedFrame painted = make_frame_of(rotoscope_frame, frame, options_, state, within);
+        add(painted, film_);
+        Frame made = frame_of(std::move(painted.pictures), frame, options_);
+        if (options_.on_twos) shown = {painted, made.picture};
+        pass(painted, std::move(made), painted.rows_note, state);
+      }
       write_what_came(written);
       meet_now_and_then();
     }
   }
 
-  void pass(RotoscopedFrame painted, const StereoFrame& source, const RotoscopeState& state) {
-    add(painted, film_);
+  void pass(const PlannedFilmFrame& planned, Frame frame, const std::string& note, const RotoscopeState& state) {
     if (const fs::path marks = marks_of(path_, options_); !marks.empty())
-      write_painting(unfinished_marks(marks, state.frames), painted.painting);
-    PassedFrame passed{frame_of(std::move(painted.pictures), source, options_), state.totals, painted.rows_note};
+      write_painting(unfinished_marks(marks, state.frames), planned.painting);
+    PassedFrame passed{std::move(frame), state.totals, note};
     if (!makes_film()) passed.frame.picture = {};
     if (has_state(state.frames)) write_rotoscope_state(passed_.state_file(state.frames), state);
     passed_.put(state.frames, passed);
@@ -298,15 +340,16 @@ std::string recipe_of(const RotoscopeFilmOptions& options) {
   // Whoever adds a member says here whether it decides a byte. Not in the text: `writing` and the interval, which the
   // film's segments compare themselves, the sources, which are compared by what is in them, and what only says how
   // the run goes: plan, version, resume, keep_going, expected_frames, ranks and their scenes.
-  static_assert(field_count<RotoscopeFilmOptions>() == 18);
+  static_assert(field_count<RotoscopeFilmOptions>() == 19);
   RotoscopeOptions frames = options.frames;
   frames.matching.model.clear();  // their content is compared
   frames.flow_model.clear();
   FilmReaderOptions reading = options.reading;
   reading.threads = 0;  // the same frames on any number
-  return fmt::format("{}\n{}\n{}\n{}\nanaglyph {}\ntwo films {}\nmarks {}\nknown {}", options.made_by,
+  return fmt::format("{}\n{}\n{}\n{}\nanaglyph {}\ntwo films {}\nmarks {}\nknown {}\ntwos {}", options.made_by,
                      text_of_fields(frames), text_of_fields(options.shots), text_of_fields(reading), options.anaglyph,
-                     !options.right_film.empty(), options.marks.string(), static_cast<bool>(options.known));
+                     !options.right_film.empty(), options.marks.string(), static_cast<bool>(options.known),
+                     options.on_twos);
 }
 
 std::optional<std::string> unfinished_film(const fs::path& output, const fs::path& marks) {
@@ -319,6 +362,7 @@ std::optional<std::string> unfinished_film(const fs::path& output, const fs::pat
 
 RotoscopedFilm rotoscope_film(StereoFilmReader& source, const fs::path& output, const RotoscopeFilmOptions& options,
                               const Progress& progress) {
+  check_twos(options);
   std::optional<FilmOutput> out;
   if (options.ranks.first()) out.emplace(output, options);
   // A damaged state is reported but not removed: the user decides.

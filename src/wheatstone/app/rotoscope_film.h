@@ -19,9 +19,12 @@ namespace wheatstone {
 struct RotoscopeFilmOptions {
   RotoscopeOptions frames;
   std::vector<FilmShot> shots;  ///< as options_of_frame takes them; empty: cuts are found, and all is painted alike
-  FilmReaderOptions reading;    ///< that the source was opened with: they decide which frames there are
-  FilmWriterOptions writing;    ///< `layout` says how the eyes lie in a painted frame
-  std::string anaglyph;         ///< an anaglyph_kind's name: two eyes in one picture for coloured glasses; empty: none
+  /// A new painting for every second frame only, and where a shot begins; other frames show the one before again. Needs
+  /// `shots`, so that no frame is looked at in vain, and an even `frames_between_checkpoints`.
+  bool on_twos = false;
+  FilmReaderOptions reading;  ///< that the source was opened with: they decide which frames there are
+  FilmWriterOptions writing;  ///< `layout` says how the eyes lie in a painted frame
+  std::string anaglyph;       ///< an anaglyph_kind's name: two eyes in one picture for coloured glasses; empty: none
   /// The film of the right eye, where the output is that of the left eye alone; empty: both eyes are in the output.
   std::filesystem::path right_film;
   std::filesystem::path marks;  ///< "marks_%04d.wst" also keeps each frame's marks, from 1 on; empty: no
@@ -69,7 +72,8 @@ std::optional<std::string> unfinished_film(const std::filesystem::path& output, 
 /// nothing behind; later it leaves these two folders and nothing else, and throws UnfinishedFilm{interrupted}. An
 /// output of the form "marks_%04d.wst" keeps marks and no pictures, and cannot be resumed: stopped, it leaves nothing.
 /// So does a plan.
-/// Throws as the reader, the writer and rotoscope_frame do, Error{wrong_usage} where marks of such names exist, and
+/// Throws as the reader, the writer and rotoscope_frame do, Error{wrong_usage} where marks of such names exist or
+/// `on_twos` lacks what it needs, and
 /// Error{bad_input} after the film is written where the source is damaged, unless `keep_going`.
 /// A program that must end at once leaves as little (remove_unfinished_outputs). Of several ranks, all throw the same,
 /// and the result is whole at the first.
