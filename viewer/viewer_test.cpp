@@ -343,7 +343,7 @@ TEST(Viewer, ComparesAPaintingWithItsPhotograph) {
   for (int y = 0; y < split.height(); ++y)
     for (int x = 0; x < split.width(); ++x)
       ASSERT_EQ(split(x, y), (x < split.width() / 2 ? photograph : painted)(x, y)) << x << ' ' << y;
-  expect_error(ErrorKind::wrong_usage, "cannot be compared", [&] { run_line(viewer, "compare moon"); });
+  expect_error(ErrorKind::wrong_usage, "is no comparison", [&] { run_line(viewer, "compare moon"); });
 }
 
 TEST(Viewer, ShowsAPhotographAsItCameWhileItIsMadeReady) {
