@@ -110,6 +110,21 @@ bool sets_screen_plane(const RotoscopeArguments& arguments) {
   return arguments.options.frames.zero_parallax_px || !arguments.shots.file.empty();
 }
 
+/// What was written, in how many frames of this run.
+void add_written(const RotoscopeArguments& arguments, double frames, Report& report) {
+  const auto add = [&](Fact fact) { report.facts.push_back(std::move(fact)); };
+  const std::string right = arguments.options.right_film.string();
+  if (!right.empty()) add({"right_output", right});
+  if (const fs::path& plan = arguments.options.plan; !plan.empty()) {
+    const double mb_a_frame = megabytes_in(plan) / frames;
+    add({"plan", plan.string()});
+    add({"plan_megabytes_a_frame", mb_a_frame, fmt::format("plan             {:.2f} MB a frame", mb_a_frame)});
+    add(only_text(fmt::format("written to       {}; draw it with --draw, then --join it", plan.string())));
+    return;
+  }
+  add(only_text(fmt::format("written to       {}{}{}", arguments.output, right.empty() ? "" : " and ", right)));
+}
+
 Report report_of(const RotoscopeArguments& arguments, const RotoscopedFilm& film, const Session& session) {
   const RotoscopeTotals& totals = film.totals;
   const RotoscopeOptions& options = arguments.options.frames;
@@ -162,16 +177,7 @@ Report report_of(const RotoscopeArguments& arguments, const RotoscopedFilm& film
   add({"ranks", session.ranks.count()});
   if (film.loss) add({"loss", *film.loss, fmt::format("source           {}", *film.loss)});
   add({"notes", film.notes, lines("note             ", film.notes)});
-  const std::string right = arguments.options.right_film.string();
-  if (!right.empty()) add({"right_output", right});
-  if (const fs::path& plan = arguments.options.plan; !plan.empty()) {
-    const double mb_a_frame = megabytes_in(plan) / painted;
-    add({"plan", plan.string()});
-    add({"plan_megabytes_a_frame", mb_a_frame, fmt::format("plan             {:.2f} MB a frame", mb_a_frame)});
-    add(only_text(fmt::format("written to       {}; draw it with --draw, then --join it", plan.string())));
-    return report;
-  }
-  add(only_text(fmt::format("written to       {}{}{}", arguments.output, right.empty() ? "" : " and ", right)));
+  add_written(arguments, painted, report);
   return report;
 }
 

@@ -18,7 +18,7 @@ std::vector<Command> all_commands() {
        {file_commands(), looking_commands(), depth_commands(), input_commands(), painting_commands(), film_commands(),
         particle_commands(), quantity_commands(), camera_commands(), panel_commands(), retouch_commands()})
     all.insert(all.end(), group.begin(), group.end());
-  std::ranges::stable_partition(all, [](const Command& command) { return command.menu != "Help"; });
+  std::stable_partition(all.begin(), all.end(), [](const Command& command) { return command.menu != "Help"; });
   return all;
 }
 

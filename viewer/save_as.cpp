@@ -76,7 +76,7 @@ cli::PrintArguments print_arguments(std::span<const std::string> framing) {
                   fmt::format("'{}' is no option, expected crop=, border=, caption= or floating-window=", option));
     std::string name = option.substr(0, equals);
     std::ranges::replace(name, '-', '_');
-    options.push_back({std::move(name), {option.substr(equals + 1)}});
+    options.emplace_back(std::move(name), std::vector{option.substr(equals + 1)});
   }
   cli::set_rows(cli::print_rows(arguments, {}, {}, {}), options);
   return arguments;

@@ -241,8 +241,7 @@ void Viewer::forget_touches() {
   session_.state.touches.clear();
   for (std::vector<ViewState>* const states : {&session_.done, &session_.undone}) {
     for (ViewState& state : *states) state.touches.clear();
-    const auto alike = std::ranges::unique(*states);
-    states->erase(alike.begin(), alike.end());
+    states->erase(std::unique(states->begin(), states->end()), states->end());
   }
 }
 

@@ -101,7 +101,7 @@ class ShotTable {
       share = node.value<double>().value_or(0);
     }
     if (!(share >= 0.001 && share <= 1))
-      refuse("depth-budget", node, "a share of the width from 0.1 to 100 %, as \"3%\" or 0.03, or \"full\"");
+      refuse("depth-budget", node, R"(a share of the width from 0.1 to 100 %, as "3%" or 0.03, or "full")");
     return static_cast<float>(share);
   }
 
