@@ -430,11 +430,7 @@ Rows info_rows(InfoArguments& a) {
           {only({DescribedKind::disparity}, "it works on pictures")}),
       row("--type", text(a.type), "Particle type of a GADGET snapshot: gas, halo, disk, bulge, stars, bndry or 0 to 5",
           {only({DescribedKind::particles}, "it works on particles")}),
-      row("--where",
-          parsed(
-              a.where,
-              [](const std::string& option, const std::string& words) { return parse_condition(words, option); },
-              "CONDITION"),
+      row("--where", parsed(a.where, parse_where, "CONDITION"),
           "Count the particles for which a condition holds, as 'Temperature > 1e6 and Density < 1e-3'; as for 'render'",
           {only({DescribedKind::particles}, "it works on particles")}),
       row("--layout", text(a.layout), "Layout of a picture that holds both views, as for 'paint'",

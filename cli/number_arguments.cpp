@@ -150,6 +150,8 @@ std::size_t parse_bytes(const std::string& option, std::string_view text) {
   return static_cast<std::size_t>(number->first * unit->second);
 }
 
+Condition parse_where(const std::string& option, const std::string& words) { return parse_condition(words, option); }
+
 Rgb8 parse_colour(const std::string& option, std::string_view text) {
   const std::optional<Rgb8> colour = colour_of_code(text);
   if (!colour) refuse(option, text, "a colour as 3366FF");

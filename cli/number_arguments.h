@@ -8,6 +8,7 @@
 
 #include "wheatstone/image/image.h"
 #include "wheatstone/number_range.h"
+#include "wheatstone/particles/condition.h"
 #include "wheatstone/video/frame.h"
 
 namespace wheatstone::cli {
@@ -57,6 +58,9 @@ std::optional<double> parse_time_s(const std::string& option, std::string_view t
 
 /// Frames per second: "24", "23.976" or "24000/1001".
 Rational parse_frame_rate(const std::string& option, std::string_view text);
+
+/// A condition that particles are chosen by: "Temperature > 1e6 and Density < 1e-3".
+Condition parse_where(const std::string& option, const std::string& words);
 
 /// "3366FF", or with a '#' before it.
 Rgb8 parse_colour(const std::string& option, std::string_view text);

@@ -93,12 +93,6 @@ std::vector<TypeColour> parse_type_colours(const std::string& option, const std:
   }
 }
 
-Value condition(std::optional<Condition>& where) {
-  return parsed(
-      where, [](const std::string& option, const std::string& words) { return parse_condition(words, option); },
-      "CONDITION");
-}
-
 Value point(std::optional<std::array<double, 3>>& place) {
   return parsed(place, [](const std::string& option, const std::string& words) {
     const auto n = parse_numbers(option, words, {',', 3, coordinate_range, "X,Y,Z"});
@@ -210,7 +204,7 @@ Rows particle_rows(RenderArguments& a) {
            "Point X,Y,Z of a periodic box that is moved to the middle of the views"),
        row("--select", selected_region(a.options.selection.cut),
            "Keep the particles in sphere:X,Y,Z,R or box:X0,Y0,Z0,X1,Y1,Z1 only"),
-       row("--where", condition(choice.where),
+       row("--where", parsed(choice.where, parse_where, "CONDITION"),
            "Keep the particles for which a condition holds, as 'Temperature > 1e6 and Density < 1e-3': quantities by "
            "the names that info tells, numbers in the file's own units, < <= > >= == !=, and, or, not, parentheses"),
        row("--subsample", number(a.options.selection.every, every_range), "Keep every Nth particle"),

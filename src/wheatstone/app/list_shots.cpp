@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cstddef>
 #include <string>
 #include <utility>
@@ -12,6 +11,7 @@
 #include "wheatstone/files/whole_file.h"
 #include "wheatstone/pictures/write_image.h"
 #include "wheatstone/stereo/picture_sizes.h"
+#include "wheatstone/video/film_time.h"
 
 namespace wheatstone {
 namespace {
@@ -30,15 +30,8 @@ void check_output(const fs::path& output) {
 /// A small JPEG of the left eye.
 std::string thumbnail_of(const Image<Rgb8>& picture) {
   constexpr int longest_px = 320, quality = 85;
-  const int longer = std::max(picture.width(), picture.height());
-  if (longer <= longest_px) return encode_jpeg(picture, quality);
-  const PictureSize size{std::max(picture.width() * longest_px / longer, 1),
-                         std::max(picture.height() * longest_px / longer, 1)};
+  const PictureSize size = reduced_size({picture.width(), picture.height()}, longest_px);
   return encode_jpeg(reduced(picture, size), quality);
-}
-
-double seconds_of(const StereoFrame& frame, std::int64_t pts) {
-  return static_cast<double>(pts) * frame.time_base.value();
 }
 
 /// The frames of a film that it is gone through for, in ascending order.
@@ -83,10 +76,10 @@ std::vector<FoundShot> list_shots(const FilmFiles& film, const FilmReaderOptions
     FoundShot shot{.begin = begin, .frames = end - begin};
     shot.thumbnail = fmt::format("{}_{:03}.jpg", output.stem().string(), i + 1);
     const StereoFrame& first = frames.at(begin);
-    shot.begin_s = seconds_of(first, first.pts);
+    shot.begin_s = seconds_of(first);
     pictures.push_back(thumbnail_of(frames.at(begin + (end - begin) / 2).left));
     const StereoFrame& last = frames.at(end - 1);
-    shot.length_s = seconds_of(last, last.pts + last.duration) - shot.begin_s;
+    shot.length_s = static_cast<double>(last.pts + last.duration) * last.time_base.value() - shot.begin_s;
     shots.push_back(std::move(shot));
   }
   for (std::size_t i = 0; i < shots.size(); ++i)

@@ -6,6 +6,7 @@
 #include <cstddef>
 
 #include "wheatstone/error.h"
+#include "wheatstone/video/film_time.h"
 
 namespace wheatstone {
 namespace {
@@ -23,8 +24,6 @@ bool begins(const WrittenShot& shot, std::int64_t number, double seconds) {
   if (const auto* frame = std::get_if<std::int64_t>(&shot.begin)) return *frame == number;
   return std::get<double>(shot.begin) <= seconds + mercy_s;
 }
-
-double seconds_of(const StereoFrame& frame) { return static_cast<double>(frame.pts) * frame.time_base.value(); }
 
 /// Goes through a film until all shots have begun, and ended where they say so.
 std::vector<Place> find_places(std::span<const WrittenShot> shots, StereoFilmReader film, const Progress& progress) {

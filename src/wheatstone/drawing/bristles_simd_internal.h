@@ -31,8 +31,7 @@ class Bristles {
         seed_(stroke.seed),
         radius_(stroke.radius_px),
         length_(std::max(stroke.length, 1e-3f)),
-        // A bundle of bristles leaves one streak of a wide brush.
-        width_(std::max(brush.bristle_px, stroke.radius_px / 6)),
+        width_(streak_width_px(brush.bristle_px, stroke.radius_px)),
         dry_(is_long_ ? brush.dry : 0),
         picture_(is_long_ && !brush.picture.empty() ? brush.picture.levels.data() : nullptr) {
     // Streaks that are too fine for the pixels of a view are filtered, so that they do not sparkle.

@@ -75,7 +75,7 @@ std::vector<std::uint8_t> picture_of(const PreparedStrokes& painting) {
 /// As class Bristles in bristles_simd_internal.h has it.
 StrokesForGpu::Bristles bristles_for_gpu(const FlatStroke& stroke, const Brush& brush) {
   const bool is_long = stroke.length > 2 * stroke.radius_px;
-  const float width_px = std::max(brush.bristle_px, stroke.radius_px / 6);
+  const float width_px = streak_width_px(brush.bristle_px, stroke.radius_px);
   return {stroke.red_change,
           stroke.green_change,
           stroke.blue_change,

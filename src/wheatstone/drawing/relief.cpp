@@ -36,7 +36,7 @@ float noise(std::uint32_t seed, std::uint32_t which, float place) {
 
 /// The height of the paint there, 0..1, lower at the rim: it stands up where the streaks of class Bristles are lighter.
 float bristle_height(const FlatStroke& stroke, float bristle_px, const OnStroke& place) {
-  const float width = std::max(bristle_px, stroke.radius_px / 6), lane = place.across / width;
+  const float lane = place.across / streak_width_px(bristle_px, stroke.radius_px);
   const float fine = noise(stroke.seed, 3, lane);
   const float broad = noise(stroke.seed, 4, lane / 2.3f + place.along / (3 * stroke.radius_px));
   const float to_rim = std::clamp(place.distance / stroke.radius_px, 0.f, 1.f);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+
 #include "wheatstone/marks/brush_picture.h"
 
 namespace wheatstone {
@@ -21,6 +23,9 @@ struct Brush {
   bool varies() const { return bristle_px > 0 || !picture.empty(); }
   friend bool operator==(const Brush&, const Brush&) = default;
 };
+
+/// Width of what the bristles leave on a stroke of this radius: a bundle of them leaves one streak of a wide brush.
+inline float streak_width_px(float bristle_px, float radius_px) { return std::max(bristle_px, radius_px / 6); }
 
 /// The brush of a painting's coarsest layer, which is the ground of the others: it covers all of its strokes.
 inline Brush ground_brush(Brush brush) {

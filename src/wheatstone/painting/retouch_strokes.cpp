@@ -76,8 +76,12 @@ float distance_from(const Touch& touch, const Layer& layer, const Stroke& stroke
   return nearest;
 }
 
-/// Whether the brush of a hand takes hold of a stroke.
+/// Whether the brush of a hand takes hold of a stroke. Most strokes lie above the hand's touches, or below them.
 bool is_held(Touches hand, const Layer& layer, const Stroke& stroke, ViewPosition view) {
+  const auto [top, bottom] = std::ranges::minmax(layer.points_of(stroke), {}, &ControlPoint::y);
+  const auto [first, last] = std::ranges::minmax(hand, {}, &Touch::y);
+  const float reach = std::ranges::max(hand, {}, &Touch::radius_px).radius_px;
+  if (top.y > last.y + reach || bottom.y < first.y - reach) return false;
   return std::ranges::any_of(hand, [&](const Touch& touch) {
     return stroke.radius_px <= touch.radius_px && distance_from(touch, layer, stroke, view) < touch.radius_px;
   });
