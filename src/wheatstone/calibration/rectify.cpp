@@ -210,9 +210,31 @@ cv::Rect2d of_shape(const cv::Rect& window, cv::Size size) {
   return {window.x + (window.width - width) / 2, window.y + (window.height - height) / 2, width, height};
 }
 
+/// How far a photograph's upright sides lean in its rectified picture: columns a row.
+double lean_of(const RectifyingMap& map) {
+  const double width = map.width, height = map.height;
+  double lean = 0;
+  for (const double x : {0.0, width}) {
+    const PicturePoint above = rectified_place(map, {x, 0}), below = rectified_place(map, {x, height});
+    lean += (below.x - above.x) / (below.y - above.y) / 2;
+  }
+  return lean;
+}
+
+/// Where both cameras were rolled against the line that joins them, a turn of both cuts off four corners. Rows need the
+/// turn, columns do not: the same shear of both pictures brings the photographs' sides upright again.
+void keep_sides_upright(RectifyingTurn& turn) {
+  constexpr double most = 0.035;  // two degrees, which are not seen as a distortion
+  const double lean = std::clamp((lean_of(turn.left) + lean_of(turn.right)) / 2, -most, most);
+  const cv::Matx33d shear(1, -lean, lean * turn.left.height / 2, 0, 1, 0, 0, 0, 1);
+  follow_with(turn.left, shear);
+  follow_with(turn.right, shear);
+}
+
 /// Crops both pictures to what both show.
 Rectification cropped(RectifyingTurn turn, const RectifyOptions& options) {
   const cv::Size size(turn.left.width, turn.left.height);
+  keep_sides_upright(turn);
   const cv::Rect window = covered_window(turn.left, turn.right, fit_canvas(turn));
   if (std::min(window.width, window.height) < least_rectified_side_px)
     throw Error(ErrorKind::bad_input, "the two rectified pictures have no common area");

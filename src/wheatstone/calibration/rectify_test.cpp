@@ -182,6 +182,27 @@ double mean_difference(const StereoPair& pair) {
   return measure_left_right_difference(pair, matched.geometry.left_disparity).mean_absolute;
 }
 
+TEST(Rectify, KeepsSidesUprightWhereBothCamerasAreRolledAlike) {
+  const StereoPair& pair = still().pictures;
+  // How far the photograph's left side leans in the rectified picture: columns a row.
+  const auto lean = [](const RectifyingMap& map) {
+    const PicturePoint above = rectified_place(map, {0, 0}), below = rectified_place(map, {0, 1. * map.height});
+    return (below.x - above.x) / (below.y - above.y);
+  };
+  const auto rolled = [&](double degrees) {
+    return rectify(StereoPair{misaligned(pair.left, {degrees}), misaligned(pair.right, {degrees})});
+  };
+  // A turn by so much would leave 0.93 of the area.
+  const RectifiedPair little = rolled(1.6);
+  EXPECT_LT(little.after.percentile_95_px, 1.5);
+  EXPECT_NEAR(lean(little.rectification->left), 0, 0.006);
+  EXPECT_GT(kept_area(*little.rectification), 0.95);
+  // More than two degrees would be seen as a distortion: the rest is turned.
+  const RectifiedPair much = rolled(12);
+  EXPECT_LT(much.after.percentile_95_px, 1.5);
+  EXPECT_GT(std::abs(lean(much.rectification->left)), 0.02);
+}
+
 TEST(Rectify, GivesBothEyesTheSameExposureAndColour) {
   StereoPair pair = still().pictures;
   const double as_photographed = mean_difference(pair);

@@ -17,7 +17,7 @@ PicturePoint carried(const cv::Matx33d& homography, PicturePoint point);
 /// photograph_place with the homography's inverse at hand, for many places.
 PicturePoint photograph_place(const RectifyingMap& map, const cv::Matx33d& homography_back, PicturePoint in_rectified);
 
-/// The same map, followed by an affine one whose columns do not depend on the row.
+/// The same map, followed by an affine one. Columns that depend on the row follow the row before its correction.
 void follow_with(RectifyingMap& map, const cv::Matx33d& after);
 
 }  // namespace wheatstone
