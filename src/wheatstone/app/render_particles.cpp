@@ -62,6 +62,8 @@ void show_quantity(const RenderParticlesOptions& options, const CloudStatistics&
   tone.hot = options.appearance.hot.value_or(usual.hot);
   if (options.quantity == "column-density") {
     tone.shown = Shown::column;
+    // Particles with colours of their own have a mass, too.
+    if (scene.splat_style.colour_source == ColourSource::own) scene.splat_style.colour_source = ColourSource::density;
   } else if (!options.quantity.empty()) {
     tone.shown = Shown::mean;
     scene.splat_style.colour_source = ColourSource::quantity;

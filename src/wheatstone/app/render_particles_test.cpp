@@ -113,6 +113,23 @@ TEST(RenderParticles, LasInUtmCoordinatesLooksLikeTheSamePointsAtZero) {
   EXPECT_GE(psnr_db(picture_of(folder / "near.las"), picture_of(folder / "far.las")), 60);
 }
 
+TEST(RenderParticles, ShowTheSameColumnDensityWithColoursOfTheirOwnAsWithout) {
+  const TemporaryFolder folder;
+  std::string plain, coloured;
+  const std::vector<double> points = cluster(20, 0);
+  for (std::size_t i = 0; i < points.size(); i += 3) {
+    const std::string place =
+        as_text({points.begin() + static_cast<long>(i), points.begin() + static_cast<long>(i) + 3});
+    plain += place.substr(0, place.size() - 1) + " 0.5\n";
+    coloured += place.substr(0, place.size() - 1) + (i % 2 == 0 ? " 0.5 255 0 0\n" : " 0.5 0 255 0\n");
+  }
+  write_whole_file(folder / "plain.txt", "x y z smoothing_length\n" + plain);
+  write_whole_file(folder / "coloured.txt", "x y z smoothing_length red green blue\n" + coloured);
+  const RenderParticlesOptions column{.quantity = "column-density"};
+  EXPECT_EQ(picture_of(folder / "coloured.txt", column), picture_of(folder / "plain.txt", column));
+  EXPECT_NE(picture_of(folder / "coloured.txt"), picture_of(folder / "plain.txt"));
+}
+
 TEST(RenderParticles, OneFarOutlierDoesNotShrinkEverythingElse) {
   const TemporaryFolder folder;
   const std::vector<double> points = cluster(1, 0);
