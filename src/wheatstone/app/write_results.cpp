@@ -1,6 +1,7 @@
 #include "wheatstone/app/write_results.h"
 
 #include <fmt/format.h>
+#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -119,14 +120,15 @@ std::vector<std::string> write_results(OutputFolder& folder, const StereoPair& p
   const Painting& painting = result.painted.painting;
   if (pictures.right.empty()) return write_flat(folder, told, options);
   const float separation = result.painted.separation;
-  const StereoPair presented =
-      set_convergence(separation < 1 ? result.painted.nearer : pictures, separation * result.zero_parallax_px);
+  const auto presented = [&] {
+    return set_convergence(separation < 1 ? result.painted.nearer : pictures, separation * result.zero_parallax_px);
+  };
   const auto picture = [&](const char* name) { return fmt::format("{}.{}", name, options.format); };
   std::vector<Output> outputs{
       {picture("left"), [&](const Path& path) { write_image(path, pictures.left, options.notes); }},
       {picture("right"), [&](const Path& path) { write_image(path, pictures.right, options.notes); }},
-      {picture("side_by_side"), [&](const Path& path) { write_image(path, side_by_side(presented), options.notes); }},
-      {picture("anaglyph"), [&](const Path& path) { write_image(path, anaglyph(presented), options.notes); }},
+      {picture("side_by_side"), [&](const Path& path) { write_image(path, side_by_side(presented()), options.notes); }},
+      {picture("anaglyph"), [&](const Path& path) { write_image(path, anaglyph(presented()), options.notes); }},
       {"disparity.png", [&](const Path& path) { write_image(path, disparity_picture(geometry.left_disparity)); }},
       {"left_disparity.pfm", [&](const Path& path) { write_disparity(path, geometry.left_disparity); }},
       {"left_disparity.png", [&](const Path& path) { write_disparity(path, geometry.left_disparity); }},
@@ -155,11 +157,19 @@ std::vector<std::string> write_results(OutputFolder& folder, const StereoPair& p
   std::mutex reporting;
   std::size_t written = 0;
   report(progress, "writing", 0);
-  tbb::parallel_for(std::size_t{0}, outputs.size(), [&](std::size_t i) {
-    outputs[i].write(folder.file(outputs[i].name));
-    const std::scoped_lock lock(reporting);
-    report(progress, "writing", static_cast<double>(++written) / static_cast<double>(outputs.size()));
-  });
+  // Large files are encoded in parallel blocks: all of them at once would only take more memory.
+  constexpr std::size_t large_pixels = 8'000'000;
+  const std::size_t at_once = pictures.left.pixels().size() < large_pixels ? 1 : outputs.size();
+  tbb::parallel_for(
+      tbb::blocked_range(std::size_t{0}, outputs.size(), at_once),
+      [&](const auto& some) {
+        for (std::size_t i = some.begin(); i < some.end(); ++i) {
+          outputs[i].write(folder.file(outputs[i].name));
+          const std::scoped_lock lock(reporting);
+          report(progress, "writing", static_cast<double>(++written) / static_cast<double>(outputs.size()));
+        }
+      },
+      tbb::simple_partitioner());
   folder.commit();
   std::vector<std::string> names;
   for (const Output& output : outputs) names.push_back(output.name);
