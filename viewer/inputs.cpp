@@ -58,8 +58,9 @@ std::vector<float> seen_row(const Surfaces& surfaces, ViewPosition view, int y, 
   std::vector<float> continued(width, unknown_disparity);
   for (const Surface& surface : surfaces.seen)
     if (y < surface.disparity.height())
-      warp_disparity_row_over(surface.disparity.row(y), view - surface.view, surface.left_px,
-                              surface.continued ? continued : nearest);
+      for (const KnownRuns::Run& run : surface.disparity.runs_of(y))
+        warp_disparity_row_over(surface.disparity.values_of(run), view - surface.view, surface.left_px + run.begin,
+                                surface.continued ? continued : nearest);
   close_cracks(nearest);
   for (int x = 0; x < width; ++x)
     if (std::isnan(nearest[x])) nearest[x] = continued[x];

@@ -228,7 +228,7 @@ TEST_F(Gaze, DoesNotFollowWhatTrembles) {
 
 /// How far a painting's reference view has what lies around a column from a disparity, at most.
 float deepest_around(const Content& content, int column, float disparity_px) {
-  const Image<float>& seen = std::get<PaintedContent>(content).painting->surfaces.seen.front().disparity;
+  const KnownRuns& seen = std::get<PaintedContent>(content).painting->surfaces.seen.front().disparity;
   float deepest_px = 0;
   for (int y = 60; y < 100; ++y)
     for (int x = column - 10; x < column + 10; ++x)

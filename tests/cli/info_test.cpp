@@ -65,7 +65,8 @@ TEST(Info, TellsOfAPainting) {
 TEST(Info, TellsOfAPaintingOfAreas) {
   const TemporaryFolder folder;
   Painting painting{RegionPainting{40, 30, {{1, 1, 3}, {9, 1, 3}, {5, 8, 4}}, {{0, 3}}, {{0, 1, {}, 4}}}};
-  painting.surfaces.seen = {{ViewPosition(-2.f), Image<float>(40, 30, 4)}, {right_eye, Image<float>(40, 30, 4)}};
+  painting.surfaces.seen = {{ViewPosition(-2.f), KnownRuns(Image<float>(40, 30, 4))},
+                            {right_eye, KnownRuns(Image<float>(40, 30, 4))}};
   write_painting(folder / "p.wst", painting);
   const nlohmann::json facts = facts_of(folder / "p.wst");
   EXPECT_EQ(facts["regions"], 1);

@@ -50,12 +50,14 @@ std::string fingerprint(Painting painting) {
     for (const std::uint8_t byte : bytes) sum = (sum ^ byte) * 0x100000001b3;
   };
   for (const Surface& surface : painting.surfaces.seen) {
-    for (const float disparity : surface.disparity.pixels()) {
-      const auto steps = std::bit_cast<std::array<std::uint8_t, 4>>(
-          std::isnan(disparity) ? std::numeric_limits<std::int32_t>::min()
-                                : static_cast<std::int32_t>(disparity * disparity_steps));
-      add(steps);
-    }
+    for (int y = 0; y < surface.disparity.height(); ++y)
+      for (int x = 0; x < surface.disparity.width(); ++x) {
+        const float disparity = surface.disparity(x, y);
+        const auto steps = std::bit_cast<std::array<std::uint8_t, 4>>(
+            std::isnan(disparity) ? std::numeric_limits<std::int32_t>::min()
+                                  : static_cast<std::int32_t>(disparity * disparity_steps));
+        add(steps);
+      }
   }
   painting.surfaces.seen.clear();
   const std::string bytes = encode_painting(painting);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "wheatstone/image/image.h"
+#include "wheatstone/image/known_runs.h"
 
 namespace wheatstone {
 
@@ -24,5 +25,6 @@ double shared_width(int width_px, double screen_disparity_px);
 
 /// NaN where no pixel is finite.
 DepthEnds depth_ends(ImageView<const float> disparity);
+DepthEnds depth_ends(const KnownRuns& disparity);
 
 }  // namespace wheatstone

@@ -22,6 +22,14 @@ TEST(DisparityPercentile, OfALargePictureIsThatOfAllItsPixels) {
   EXPECT_NEAR(depth_ends(ramp).nearest_px, 2917, 2);
 }
 
+TEST(DepthEnds, OfAStripAreKnown) {
+  Image<float> strip(3'000'000, 1);
+  for (int x = 0; x < strip.width(); ++x) strip(x, 0) = static_cast<float>(x % 100);
+  EXPECT_NEAR(depth_ends(strip).farthest_px, 2, 1);
+  EXPECT_NEAR(depth_ends(KnownRuns(strip)).nearest_px, 97, 1);
+  EXPECT_TRUE(std::isnan(depth_ends(KnownRuns()).nearest_px));
+}
+
 TEST(DisparityPercentile, PassesOverUnknownsAndOutliers) {
   Image<float> disparity(1000, 1);
   for (int x = 0; x < 1000; ++x) disparity(x, 0) = static_cast<float>(x % 100);

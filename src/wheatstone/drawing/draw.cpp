@@ -1,7 +1,6 @@
 #include "wheatstone/drawing/draw.h"
 
 #include <tbb/parallel_for.h>
-#include <tbb/parallel_invoke.h>
 
 #include <algorithm>
 #include <optional>
@@ -29,15 +28,11 @@ void hand_over(PreparedPainting::Contents& contents, Device device) {
 
 PreparedPainting prepared(const Painting& painting, Device device) {
   using Marks = decltype(PreparedPainting::Contents::marks);
-  std::optional<Marks> marks;
-  std::optional<PreparedSurfaces> surfaces;
-  tbb::parallel_invoke(
-      [&] { marks = std::visit([](const auto& kind) -> Marks { return prepare_marks(kind); }, painting.marks); },
-      [&] { surfaces.emplace(painting.surfaces); });
-  if (auto* const lines = std::get_if<PreparedLines>(&*marks))
-    lines->overhangs_px = overhangs_of(lines->painting, *surfaces);
+  Marks marks = std::visit([](const auto& kind) -> Marks { return prepare_marks(kind); }, painting.marks);
+  if (auto* const lines = std::get_if<PreparedLines>(&marks))
+    lines->overhangs_px = overhangs_of(lines->painting, painting.surfaces);
   auto contents = std::make_unique<PreparedPainting::Contents>(PreparedPainting::Contents{
-      width_of(painting), height_of(painting), *std::move(marks), *std::move(surfaces), painting.relief});
+      width_of(painting), height_of(painting), std::move(marks), painting.surfaces, painting.relief});
   hand_over(*contents, device);
   return PreparedPainting(std::move(contents));
 }

@@ -242,7 +242,7 @@ DrawnView draw_view(const PreparedLines& lines, ViewPosition view, const Hiding&
 
 }  // namespace
 
-void draw_marks(const PreparedLines& lines, const PreparedSurfaces& surfaces, std::span<const ViewToDraw> views) {
+void draw_marks(const PreparedLines& lines, const Surfaces& surfaces, std::span<const ViewToDraw> views) {
   tbb::parallel_for(std::size_t{0}, views.size(), [&](std::size_t i) {
     const SeenSurfaces seen =
         seen_surfaces(surfaces, views[i].position, {lines.painting.width, 0, lines.painting.height});

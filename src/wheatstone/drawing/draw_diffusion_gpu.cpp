@@ -44,7 +44,7 @@ struct LevelWork {
   std::int32_t margin = 0;  ///< columns on both sides that the view does not show
 };
 
-std::vector<CurvePiece> pieces_of(const PreparedLines& lines, const PreparedSurfaces& surfaces) {
+std::vector<CurvePiece> pieces_of(const PreparedLines& lines, const Surfaces& surfaces) {
   const auto place = [](const ColourPoint& point) {
     return CurvePiece::Place{point.at.x, point.at.y, point.at.disparity};
   };
@@ -82,9 +82,9 @@ GpuBuffer buffer_of(const LevelWork& work) { return GpuBuffer(std::span<const Le
 
 }  // namespace
 
-GpuDiffusion::GpuDiffusion(const PreparedLines& lines, const PreparedSurfaces& surfaces)
+GpuDiffusion::GpuDiffusion(const PreparedLines& lines, const Surfaces& surfaces)
     : painting_(lines.painting),
-      photographed_(surfaces.photographed),
+      photographed_(photographed_views(surfaces)),
       add_lines_(add_lines_source),
       know_lines_(know_lines_source),
       halve_known_(halve_known_source),

@@ -238,7 +238,7 @@ DrawnView draw_view(const RegionPainting& painting, ViewPosition view, const Hid
 
 }  // namespace
 
-void draw_marks(const RegionPainting& painting, const PreparedSurfaces& surfaces, std::span<const ViewToDraw> views) {
+void draw_marks(const RegionPainting& painting, const Surfaces& surfaces, std::span<const ViewToDraw> views) {
   tbb::parallel_for(std::size_t{0}, views.size(), [&](std::size_t i) {
     const SeenSurfaces seen = seen_surfaces(surfaces, views[i].position, {painting.width, 0, painting.height});
     views[i].drawn = draw_view(painting, views[i].position, seen.hiding);

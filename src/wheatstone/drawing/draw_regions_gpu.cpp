@@ -38,7 +38,7 @@ struct RegionsForGpu {
     float bottom() const { return y + dy; }
   };
 
-  RegionsForGpu(const RegionPainting& painting, const PreparedSurfaces& surfaces) {
+  RegionsForGpu(const RegionPainting& painting, const Surfaces& surfaces) {
     std::vector<std::vector<Edge>> of_marks;
     for (const RegionMark& mark : painting.marks) {
       marks.push_back({packed(mark.colour), mark.reference_view - central_view, mark.views.first - central_view,
@@ -89,7 +89,7 @@ struct RegionsForGpu {
 
 }  // namespace
 
-GpuRegions::GpuRegions(const RegionPainting& painting, const PreparedSurfaces& surfaces)
+GpuRegions::GpuRegions(const RegionPainting& painting, const Surfaces& surfaces)
     : painting_(painting), sample_regions_(sample_regions_source), finish_regions_(finish_regions_source) {
   const RegionsForGpu flat(painting, surfaces);
   buffers_.emplace(Buffers{GpuBuffer(std::span<const RegionsForGpu::Mark>(flat.marks)),

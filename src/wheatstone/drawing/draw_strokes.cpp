@@ -67,8 +67,7 @@ struct alignas(64) Piece {
   }
 };
 
-Piece piece_of(const FlatStroke& stroke, std::uint32_t index, const PreparedSurfaces& surfaces,
-               const DistanceBand& band) {
+Piece piece_of(const FlatStroke& stroke, std::uint32_t index, const Surfaces& surfaces, const DistanceBand& band) {
   constexpr float thin_px = 1.25f;
   const float reach_px = BrushProfile(stroke.radius_px).reach_px, reach = reach_px + 1;
   // Rows have their centres half a pixel down.
@@ -114,7 +113,7 @@ class BandOfViews {
 
   /// `accumulators`: taken over from another band, or empty. `view_count`: number of views that will be drawn, in one
   /// call or in several.
-  BandOfViews(const PreparedStrokes& painting, const PreparedSurfaces& surfaces, int number, std::size_t view_count,
+  BandOfViews(const PreparedStrokes& painting, const Surfaces& surfaces, int number, std::size_t view_count,
               std::vector<FrontToBackAccumulator>& accumulators)
       : painting_(painting),
         surfaces_(surfaces),
@@ -339,7 +338,7 @@ class BandOfViews {
   }
 
   const PreparedStrokes& painting_;
-  const PreparedSurfaces& surfaces_;
+  const Surfaces& surfaces_;
   DistanceBand band_;
   DistanceBand scratch_;  ///< as wide as the widest stamp so far
   HiddenBelow nothing_hides_;
@@ -401,7 +400,7 @@ std::vector<int> bands_by_cost(const PreparedStrokes& painting) {
 
 }  // namespace
 
-void draw_marks(const PreparedStrokes& painting, const PreparedSurfaces& surfaces, std::span<const ViewToDraw> views) {
+void draw_marks(const PreparedStrokes& painting, const Surfaces& surfaces, std::span<const ViewToDraw> views) {
   tbb::parallel_for(std::size_t{0}, views.size(), [&](std::size_t i) {
     const ViewToDraw& view = views[i];
     assert(view.background.empty() ||

@@ -140,7 +140,7 @@ float still_depth_of(std::span<const Segment> segments) {
 
 }  // namespace
 
-StrokesForGpu::StrokesForGpu(const PreparedStrokes& painting, const PreparedSurfaces& surfaces) {
+StrokesForGpu::StrokesForGpu(const PreparedStrokes& painting, const Surfaces& surfaces) {
   const bool varies = paint_of(painting) != PaintInStrokes::even;
   for_strokes_from_nearest(painting, [&](const BandedLayer& layer, std::size_t place) {
     const FlatStroke& stroke = layer.flat.strokes[place];
@@ -198,7 +198,7 @@ CellsForGpu::CellsForGpu(const StrokesForGpu& of, int width, int height, float f
         for_cells(of.segments[i], [&](std::size_t cell) { in_cells[next[cell]++] = again ? i | highest_bit : i; });
 }
 
-GpuStrokes::GpuStrokes(const PreparedStrokes& painting, const PreparedSurfaces& surfaces, const Relief& relief)
+GpuStrokes::GpuStrokes(const PreparedStrokes& painting, const Surfaces& surfaces, const Relief& relief)
     : painting_(painting),
       flat_(painting, surfaces),
       draw_strokes_(draw_strokes_source, {{"PAINT", static_cast<int>(paint_of(painting))}}),

@@ -27,7 +27,7 @@ Surfaces wall_and_post() {
     for (int x = 27; x < 32; ++x) left(x, y) = wall;
     for (int x = 28; x < 33; ++x) right(x, y) = wall;
   }
-  return {{{central_view, centre}, {left_eye, left}, {right_eye, right}}, 2};
+  return {{{central_view, KnownRuns(centre)}, {left_eye, KnownRuns(left)}, {right_eye, KnownRuns(right)}}, 2};
 }
 
 /// A red band across the wall, as marks of one kind, in the central view.

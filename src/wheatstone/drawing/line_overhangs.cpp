@@ -24,7 +24,7 @@ float overhang_at(const ControlPoint& at, const Hiding& hiding) {
 
 }  // namespace
 
-std::vector<float> overhangs_of(const DiffusionPainting& painting, const PreparedSurfaces& surfaces) {
+std::vector<float> overhangs_of(const DiffusionPainting& painting, const Surfaces& surfaces) {
   if (surfaces.seen.empty()) return {};
   std::vector<float> overhangs_px(painting.points.size());
   for (const ViewPosition view : views_of(painting)) {

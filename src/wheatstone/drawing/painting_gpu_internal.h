@@ -61,7 +61,7 @@ struct StrokesForGpu {
     float least, most;  ///< shares of its length between which it has places
   };
 
-  StrokesForGpu(const PreparedStrokes& painting, const PreparedSurfaces& surfaces);
+  StrokesForGpu(const PreparedStrokes& painting, const Surfaces& surfaces);
 
   std::vector<Stroke> strokes;
   std::vector<Segment> segments;
@@ -111,7 +111,7 @@ struct CellsOnGpu {
 /// The relief of strokes on the graphics processor. Made and used within on_gpu().
 class GpuRelief {
  public:
-  GpuRelief(const PreparedStrokes& painting, const PreparedSurfaces& surfaces, const Relief& relief);
+  GpuRelief(const PreparedStrokes& painting, const Surfaces& surfaces, const Relief& relief);
   /// Lights the pixels of these views. `cells` are those of the strokes, for all of the views.
   void light(const GpuSurfaces& surfaces, const GpuBuffer& planes, std::span<const ViewPosition> views,
              const CellsOnGpu& cells, const GpuBuffer& pixels) const;
@@ -126,7 +126,7 @@ class GpuRelief {
 /// Strokes on the graphics processor. Made and used within on_gpu(); what it was made of must stay.
 class GpuStrokes {
  public:
-  GpuStrokes(const PreparedStrokes& painting, const PreparedSurfaces& surfaces, const Relief& relief);
+  GpuStrokes(const PreparedStrokes& painting, const Surfaces& surfaces, const Relief& relief);
   /// The pixels of each view. `planes`: the surfaces as the views see them.
   GpuBuffer draw(const GpuSurfaces& surfaces, const GpuBuffer& planes, const ViewsOnGpu& views);
 
@@ -145,7 +145,7 @@ class GpuStrokes {
 /// Regions on the graphics processor. Made and used within on_gpu(); what it was made of must stay.
 class GpuRegions {
  public:
-  GpuRegions(const RegionPainting& painting, const PreparedSurfaces& surfaces);
+  GpuRegions(const RegionPainting& painting, const Surfaces& surfaces);
   GpuBuffer draw(const GpuSurfaces& surfaces, const GpuBuffer& planes, const ViewsOnGpu& views) const;
 
  private:
@@ -161,7 +161,7 @@ class GpuRegions {
 /// Lines of colour on the graphics processor. Made and used within on_gpu(); what it was made of must stay.
 class GpuDiffusion {
  public:
-  GpuDiffusion(const PreparedLines& lines, const PreparedSurfaces& surfaces);
+  GpuDiffusion(const PreparedLines& lines, const Surfaces& surfaces);
   GpuBuffer draw(const GpuSurfaces& surfaces, const GpuBuffer& planes, const ViewsOnGpu& views) const;
 
  private:

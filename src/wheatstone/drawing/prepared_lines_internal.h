@@ -18,7 +18,7 @@ struct PreparedLines {
   float overhang_px(std::size_t point) const { return overhangs_px.empty() ? 0 : overhangs_px[point]; }
 };
 
-std::vector<float> overhangs_of(const DiffusionPainting& painting, const PreparedSurfaces& surfaces);
+std::vector<float> overhangs_of(const DiffusionPainting& painting, const Surfaces& surfaces);
 
 /// Lines this far beside a view still give their colours to it: otherwise colours would change all over a plain surface
 /// once the line at its end leaves the view. Views of a comfortable depth shift less in five eye separations.

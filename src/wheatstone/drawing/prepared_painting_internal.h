@@ -19,7 +19,7 @@ class PaintingOnGpu;
 struct PreparedPainting::Contents {
   int width, height;
   std::variant<PreparedStrokes, RegionPainting, PreparedLines> marks;
-  PreparedSurfaces surfaces;
+  Surfaces surfaces;
   Relief relief;
   std::shared_ptr<PaintingOnGpu> on_gpu = {};  ///< empty where the processor draws
   Device device = Device::processor;           ///< that was asked for
@@ -29,7 +29,7 @@ struct PreparedPainting::Contents {
 
 PreparedStrokes prepare_marks(const StrokePainting& painting);
 inline RegionPainting prepare_marks(RegionPainting painting) { return painting; }
-/// The overhangs of lines are set later, once the surfaces are prepared.
+/// The overhangs of lines are set later, from the surfaces.
 inline PreparedLines prepare_marks(DiffusionPainting painting) { return {std::move(painting), {}}; }
 
 /// A view that is to be drawn.
@@ -39,9 +39,9 @@ struct ViewToDraw {
   DrawnView& drawn;
 };
 
-void draw_marks(const PreparedStrokes& painting, const PreparedSurfaces& surfaces, std::span<const ViewToDraw> views);
-void draw_marks(const RegionPainting& painting, const PreparedSurfaces& surfaces, std::span<const ViewToDraw> views);
-void draw_marks(const PreparedLines& lines, const PreparedSurfaces& surfaces, std::span<const ViewToDraw> views);
+void draw_marks(const PreparedStrokes& painting, const Surfaces& surfaces, std::span<const ViewToDraw> views);
+void draw_marks(const RegionPainting& painting, const Surfaces& surfaces, std::span<const ViewToDraw> views);
+void draw_marks(const PreparedLines& lines, const Surfaces& surfaces, std::span<const ViewToDraw> views);
 
 // The same as SVG (svg.h). Marks with a ground need a picture of the view beneath them.
 

@@ -40,7 +40,7 @@ struct ReliefForGpu {
     std::uint32_t stroke;
   };
 
-  ReliefForGpu(const PreparedStrokes& painting, const PreparedSurfaces& surfaces) {
+  ReliefForGpu(const PreparedStrokes& painting, const Surfaces& surfaces) {
     for_strokes_from_nearest(painting, [&](const BandedLayer& layer, std::size_t place) {
       const FlatStroke& stroke = layer.flat.strokes[place];
       const BrushProfile brush(stroke.radius_px);
@@ -67,7 +67,7 @@ struct ReliefForGpu {
 
 }  // namespace
 
-GpuRelief::GpuRelief(const PreparedStrokes& painting, const PreparedSurfaces& surfaces, const Relief& relief)
+GpuRelief::GpuRelief(const PreparedStrokes& painting, const Surfaces& surfaces, const Relief& relief)
     : width_(painting.width),
       height_(painting.height),
       relief_(relief),

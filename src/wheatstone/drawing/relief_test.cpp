@@ -106,7 +106,7 @@ TEST(Relief, GivesTheSameBytesOnAnyNumberOfThreads) {
   style.absolute_radii = true;
   const Painting painted = paint(test_scene::photographs(), test_scene::geometry(), style).painting;
   const SeenSurfaces seen =
-      seen_surfaces(PreparedSurfaces(painted.surfaces), right_eye, {test_scene::width, 0, test_scene::height});
+      seen_surfaces(Surfaces(painted.surfaces), right_eye, {test_scene::width, 0, test_scene::height});
   Image<float> first;
   for (const std::size_t threads : {1u, 2u, 4u}) {
     const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);

@@ -21,16 +21,18 @@ struct FlatSurfaces {
     std::uint32_t first_value;
   };
 
-  explicit FlatSurfaces(const PreparedSurfaces& surfaces) {
-    for (const PreparedSurfaces::KnownPart& part : surfaces.seen) {
+  explicit FlatSurfaces(const Surfaces& surfaces) {
+    for (const Surface& surface : surfaces.seen) {
+      const KnownRuns& known = surface.disparity;
       const auto first_run = static_cast<std::uint32_t>(runs.size());
       const auto first_value = static_cast<std::uint32_t>(disparities.size());
-      parts.push_back({part.view - central_view, part.left_px, part.continued ? 1 : 0, part.rows(),
+      parts.push_back({surface.view - central_view, surface.left_px, surface.continued ? 1 : 0, known.height(),
                        static_cast<std::uint32_t>(first_runs.size())});
-      for (const std::size_t run : part.first_run) first_runs.push_back(first_run + static_cast<std::uint32_t>(run));
-      for (const PreparedSurfaces::Run& run : part.runs)
+      for (const std::size_t run : known.first_runs())
+        first_runs.push_back(first_run + static_cast<std::uint32_t>(run));
+      for (const KnownRuns::Run& run : known.runs())
         runs.push_back({run.begin, run.end, first_value + static_cast<std::uint32_t>(run.first_value)});
-      disparities.insert(disparities.end(), part.disparities.begin(), part.disparities.end());
+      disparities.insert(disparities.end(), known.values().begin(), known.values().end());
     }
   }
 
@@ -50,9 +52,9 @@ struct SeeWork {
 
 }  // namespace
 
-GpuSurfaces::GpuSurfaces(const PreparedSurfaces& surfaces) : GpuSurfaces(surfaces, FlatSurfaces(surfaces)) {}
+GpuSurfaces::GpuSurfaces(const Surfaces& surfaces) : GpuSurfaces(surfaces, FlatSurfaces(surfaces)) {}
 
-GpuSurfaces::GpuSurfaces(const PreparedSurfaces& surfaces, const FlatSurfaces& flat)
+GpuSurfaces::GpuSurfaces(const Surfaces& surfaces, const FlatSurfaces& flat)
     : parts_(static_cast<int>(flat.parts.size())),
       tolerance_px_(surfaces.tolerance_px),
       see_surfaces_(see_surfaces_source),

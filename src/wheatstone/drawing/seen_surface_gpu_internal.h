@@ -15,7 +15,7 @@ class GpuSurfaces {
   static constexpr float unknown = -1e30f;
   static constexpr std::size_t planes_a_view = 3;  ///< the reference view's, what photographs show, the nearest
 
-  explicit GpuSurfaces(const PreparedSurfaces& surfaces);
+  explicit GpuSurfaces(const Surfaces& surfaces);
 
   bool empty() const { return parts_ == 0; }
   float tolerance_px() const { return tolerance_px_; }
@@ -23,7 +23,7 @@ class GpuSurfaces {
   GpuBuffer seen(std::span<const ViewPosition> views, int width, int height) const;
 
  private:
-  GpuSurfaces(const PreparedSurfaces& surfaces, const struct FlatSurfaces& flat);
+  GpuSurfaces(const Surfaces& surfaces, const struct FlatSurfaces& flat);
 
   int parts_;
   float tolerance_px_;

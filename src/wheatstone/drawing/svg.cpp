@@ -11,7 +11,7 @@ bool svg_has_ground(const Painting& painting) {
 
 std::string svg_of(const Painting& painting, ViewPosition view, const std::string& ground_png) {
   const SeenSurfaces seen =
-      seen_surfaces(PreparedSurfaces(painting.surfaces), view, {width_of(painting), 0, height_of(painting)});
+      seen_surfaces(Surfaces(painting.surfaces), view, {width_of(painting), 0, height_of(painting)});
   return std::visit([&](const auto& marks) { return svg_of_marks(marks, view, seen.hiding, ground_png); },
                     painting.marks);
 }

@@ -115,7 +115,7 @@ TEST(FitCurves, StayWithinTheToleranceWithFewCurves) {
 /// The painting without the strokes that the view does not see.
 Painting without_hidden(const Painting& painting, ViewPosition view, float least_share) {
   const SeenSurfaces seen =
-      seen_surfaces(PreparedSurfaces(painting.surfaces), view, {width_of(painting), 0, height_of(painting)});
+      seen_surfaces(Surfaces(painting.surfaces), view, {width_of(painting), 0, height_of(painting)});
   Painting kept = painting;
   auto& strokes = std::get<StrokePainting>(kept.marks);
   const auto visible = visible_strokes(prepare_marks(strokes), view, seen.hiding, least_share);

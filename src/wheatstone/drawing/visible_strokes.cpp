@@ -101,14 +101,13 @@ std::vector<std::vector<std::uint8_t>> visible_strokes(const PreparedStrokes& pa
 
 StrokePainting without_hidden_strokes(const StrokePainting& painting, const Surfaces& surfaces,
                                       std::span<const ViewPosition> views, float least_share) {
-  const PreparedSurfaces prepared_surfaces(surfaces);
   std::vector<std::vector<std::uint8_t>> shown;
   for (const Layer& layer : painting.layers) shown.emplace_back(layer.strokes.size(), std::uint8_t{0});
   PreparedStrokes of_one_layer = prepare_marks(painting);
   std::vector<BandedLayer> layers(1);
   std::swap(layers, of_one_layer.layers);
   for (const ViewPosition view : views) {
-    const SeenSurfaces seen = seen_surfaces(prepared_surfaces, view, {painting.width, 0, painting.height});
+    const SeenSurfaces seen = seen_surfaces(surfaces, view, {painting.width, 0, painting.height});
     for (std::size_t i = 0; i < painting.layers.size(); ++i) {
       std::swap(layers[i], of_one_layer.layers.front());
       mark_visible(of_one_layer, view, seen.hiding, least_share, std::span(&shown[i], 1));

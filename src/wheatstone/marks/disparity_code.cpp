@@ -47,14 +47,17 @@ std::int32_t difference_of(std::uint32_t code) { return static_cast<std::int32_t
 
 }  // namespace
 
-std::vector<std::uint8_t> encode_disparities(const Image<float>& disparity) {
-  const std::size_t count = disparity.pixels().size();
+std::vector<std::uint8_t> encode_disparities(const KnownRuns& disparity) {
+  const auto width = static_cast<std::size_t>(disparity.width());
+  const std::size_t count = width * static_cast<std::size_t>(disparity.height());
   std::vector<std::uint8_t> planes(count * bytes_a_code);
   Expectation expectation(disparity.width());
+  std::vector<float> row(width);
   std::size_t i = 0;
   for (int y = 0; y < disparity.height(); ++y) {
     expectation.begin_row();
-    for (const float d : disparity.row(y)) {
+    disparity.copy_row(y, row);
+    for (const float d : row) {
       const std::int32_t expected = expectation.expected();
       const std::int32_t steps = std::isnan(d) ? expected : static_cast<std::int32_t>(std::lround(d * disparity_steps));
       const std::uint32_t code = std::isnan(d) ? unknown_code : code_of(steps - expected);
@@ -67,17 +70,18 @@ std::vector<std::uint8_t> encode_disparities(const Image<float>& disparity) {
   return deflated(planes);
 }
 
-std::optional<Image<float>> decode_disparities(std::span<const std::uint8_t> bytes, int width, int height) {
+std::optional<KnownRuns> decode_disparities(std::span<const std::uint8_t> bytes, int width, int height) {
   const std::size_t count = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
   const auto inflated_planes = inflated(bytes, count * bytes_a_code);
   if (!inflated_planes) return {};
   const std::vector<std::uint8_t>& planes = *inflated_planes;
-  Image<float> disparity(width, height);
+  KnownRuns disparity(width, height);
+  std::vector<float> row(static_cast<std::size_t>(width));
   Expectation expectation(width);
   std::size_t i = 0;
   for (int y = 0; y < height; ++y) {
     expectation.begin_row();
-    for (float& d : disparity.row(y)) {
+    for (float& d : row) {
       std::uint32_t code = 0;
       for (int byte = 0; byte < bytes_a_code; ++byte)
         code |= static_cast<std::uint32_t>(planes[static_cast<std::size_t>(byte) * count + i]) << (8 * byte);
@@ -88,6 +92,7 @@ std::optional<Image<float>> decode_disparities(std::span<const std::uint8_t> byt
       expectation.next(static_cast<std::int32_t>(steps));
       ++i;
     }
+    disparity.add_row(row);
   }
   return disparity;
 }

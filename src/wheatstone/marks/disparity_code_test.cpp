@@ -13,7 +13,7 @@ constexpr int width = 61, height = 17;
 constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
 
 /// Near and far, before and behind the display, with gaps, in whole steps.
-Image<float> disparities() {
+KnownRuns disparities() {
   Image<float> made(width, height);
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x)
@@ -21,16 +21,14 @@ Image<float> disparities() {
   made(0, 0) = 4e6f;
   made(1, 0) = -4e6f;
   for (int x = 0; x < width; ++x) made(x, 5) = unknown;
-  return made;
+  return KnownRuns(made);
 }
 
-bool same(const Image<float>& a, const Image<float>& b) { return Surface{{}, a} == Surface{{}, b}; }
-
 TEST(DisparityCode, BringsWholeStepsBackEqual) {
-  const Image<float> made = disparities();
+  const KnownRuns made = disparities();
   const auto back = decode_disparities(encode_disparities(made), width, height);
   ASSERT_TRUE(back.has_value());
-  EXPECT_TRUE(same(*back, made));
+  EXPECT_EQ(*back, made);
   EXPECT_TRUE(std::isnan((*back)(3, 5)));
 }
 
@@ -39,7 +37,7 @@ TEST(DisparityCode, RoundsToSteps) {
   fine(0, 0) = 1.04f;
   fine(1, 0) = -1.04f;
   fine(2, 0) = 7.96875f;
-  const auto back = decode_disparities(encode_disparities(fine), 3, 1);
+  const auto back = decode_disparities(encode_disparities(KnownRuns(fine)), 3, 1);
   ASSERT_TRUE(back.has_value());
   EXPECT_EQ((*back)(0, 0), 1.0625f);
   EXPECT_EQ((*back)(1, 0), -1.0625f);
@@ -50,7 +48,7 @@ TEST(DisparityCode, TakesAFewBitsForAPixelOfASmoothSurface) {
   Image<float> slope(320, 240);
   for (int y = 0; y < 240; ++y)
     for (int x = 0; x < 320; ++x) slope(x, y) = std::round(0.1f * static_cast<float>(x + y) * 16) / 16;
-  EXPECT_LT(encode_disparities(slope).size(), slope.pixels().size() / 8);
+  EXPECT_LT(encode_disparities(KnownRuns(slope)).size(), slope.pixels().size() / 8);
 }
 
 TEST(DisparityCode, RefusesWhatIsNotExactlyASurfaceOfItsSize) {
@@ -72,7 +70,7 @@ TEST(DisparityCode, NeverBelievesAFlippedByte) {
     std::vector<std::uint8_t> bad = good;
     bad[i] ^= 0x10;
     const auto back = decode_disparities(bad, width, height);
-    EXPECT_TRUE(!back || same(*back, disparities())) << i;
+    EXPECT_TRUE(!back || *back == disparities()) << i;
   }
 }
 

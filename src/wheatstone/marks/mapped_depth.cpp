@@ -68,27 +68,35 @@ void lay(const MappedRow& row, int first, std::span<float> nearest) {
 
 template <class Mapped>
 Surface mapped_surface(const Surface& surface, float separation, const Mapped& mapped) {
-  const Image<float>& from = surface.disparity;
+  const KnownRuns& from = surface.disparity;
   Surface to = surface;
   float least = 0, most = 0;  // of what pixels move
   for (int y = 0; y < from.height(); ++y)
-    for (int x = 0; x < from.width(); ++x) {
-      const float before = from(x, y);
-      if (std::isnan(before)) continue;
-      const float place = static_cast<float>(surface.left_px + x) + 0.5f + separation * before;
-      const float behind = to.disparity(x, y) = in_steps(mapped(place, static_cast<float>(y) + 0.5f, before));
-      least = std::min(least, separation * (before - behind));
-      most = std::max(most, separation * (before - behind));
+    for (const KnownRuns::Run& run : from.runs_of(y)) {
+      int x = run.begin;
+      for (float& disparity : to.disparity.values_of(run)) {
+        const float before = disparity;
+        const float place = static_cast<float>(surface.left_px + x++) + 0.5f + separation * before;
+        disparity = in_steps(mapped(place, static_cast<float>(y) + 0.5f, before));
+        least = std::min(least, separation * (before - disparity));
+        most = std::max(most, separation * (before - disparity));
+      }
     }
   if (separation == 0) return to;
   // What leaves the picture by more than its width is never seen.
   const auto reach = static_cast<float>(from.width());
   const int first = floor_of(std::max(least, -reach));
   const int last = from.width() + floor_of(std::min(most, reach)) + 1;
-  Surface moved{surface.view, Image<float>(last - first, from.height(), std::numeric_limits<float>::quiet_NaN()),
-                surface.left_px + first, surface.continued};
-  for (int y = 0; y < from.height(); ++y)
-    lay({from.row(y), to.disparity.row(y), separation}, first, moved.disparity.row(y));
+  Surface moved{surface.view, KnownRuns(last - first, from.height()), surface.left_px + first, surface.continued};
+  std::vector<float> before(static_cast<std::size_t>(from.width())), behind(before.size());
+  std::vector<float> nearest(static_cast<std::size_t>(last - first));
+  for (int y = 0; y < from.height(); ++y) {
+    from.copy_row(y, before);
+    to.disparity.copy_row(y, behind);
+    std::ranges::fill(nearest, std::numeric_limits<float>::quiet_NaN());
+    lay({before, behind, separation}, first, nearest);
+    moved.disparity.add_row(nearest);
+  }
   return moved;
 }
 

@@ -86,10 +86,10 @@ TEST(MappedDepth, KeepsTheOrderInWhichThingsHideEachOther) {
   layer.strokes.push_back(
       {.first_point = 1, .point_count = 2, .radius_px = 30, .colour = blue, .disparity = 4, .views = all_views});
   Painting painting{.marks = StrokePainting{.width = width, .height = height, .layers = {layer}}};
-  Surface seen{left_eye, Image<float>(width, height, 4)};
+  Image<float> seen(width, height, 4);
   for (int y = 12; y < 28; ++y)
-    for (int x = 32; x < 48; ++x) seen.disparity(x, y) = 24;
-  painting.surfaces.seen.push_back(seen);
+    for (int x = 32; x < 48; ++x) seen(x, y) = 24;
+  painting.surfaces.seen.push_back({left_eye, KnownRuns(seen)});
   const Painting mapped = with_depth(painting, {{{4, 1}, {24, 9}}});
   for (const ViewPosition view : {left_eye, central_view, right_eye}) {
     const int x = static_cast<int>(std::lround(40 - (view - left_eye) * 9));
@@ -122,14 +122,15 @@ TEST(DepthAround, ChangesTheRangeOfDisparitiesByItsGainAndLeavesTheMiddleWhereIt
   for (std::uint32_t point = 0; point < 5; ++point)
     layer.strokes.push_back({.first_point = point, .point_count = 1, .radius_px = 2});
   Painting painting{.marks = StrokePainting{.width = width, .height = height, .layers = {layer}}};
-  painting.surfaces.seen.push_back({left_eye, Image<float>(width, height, far_px)});
-  painting.surfaces.seen.front().disparity(60, 30) = near_px;
+  Image<float> seen(width, height, far_px);
+  seen(60, 30) = near_px;
+  painting.surfaces.seen.push_back({left_eye, KnownRuns(seen)});
   const Painting mapped = with_depth_around(painting, around);
   const std::vector<ControlPoint>& points = std::get<StrokePainting>(mapped.marks).layers.front().points;
   EXPECT_NEAR(points[0].disparity - points[1].disparity, 1.5f * (near_px - far_px), 1e-3);
   EXPECT_EQ(points[2].disparity, 12);
   EXPECT_NEAR(points[3].disparity - points[4].disparity, 0.5f * (near_px - far_px), 1e-2);
-  const Image<float>& surface = mapped.surfaces.seen.front().disparity;
+  const KnownRuns& surface = mapped.surfaces.seen.front().disparity;
   EXPECT_NEAR(surface(60, 30), 12 + 1.5f * (near_px - 12), 0.1);
   EXPECT_NEAR(surface(398, 30), 12 + 0.5f * (far_px - 12), 0.1);
 }
@@ -158,9 +159,9 @@ TEST(DepthAround, NeitherFoldsNorTearsWhatIsEquallyNear) {
   for (const float nearness_px : {0.f, 10.f, 40.f})
     for (const auto& [there, elsewhere] : {std::pair{2.f, 0.f}, {0.f, 2.f}, {1.5f, 0.5f}}) {
       Painting painting{.marks = StrokePainting{.width = width, .height = height}};
-      painting.surfaces.seen.push_back({left_eye, Image<float>(width, height, nearness_px)});
-      Surface& seen = painting.surfaces.seen.front();
-      for (int y = height / 2; y < height; ++y) std::ranges::fill(seen.disparity.row(y), 20.f);
+      Image<float> seen(width, height, nearness_px);
+      for (int y = height / 2; y < height; ++y) std::ranges::fill(seen.row(y), 20.f);
+      painting.surfaces.seen.push_back({left_eye, KnownRuns(seen)});
       const Painting mapped = with_depth_around(
           painting,
           {.x = 150, .y = 20, .disparity_px = 20, .gain_there = there, .gain_elsewhere = elsewhere, .radius_px = 5});

@@ -1,6 +1,6 @@
 #include "wheatstone/marks/painting.h"
 
-#include <tbb/parallel_for.h>
+#include <tbb/parallel_for_each.h>
 
 #include <algorithm>
 #include <cmath>
@@ -35,9 +35,9 @@ class Mover {
 
   /// Between two surfaces there is no third one: disparities are not interpolated.
   Surface moved(const Surface& surface) const {
-    const Image<float>& from = surface.disparity;
+    const KnownRuns& from = surface.disparity;
     const double first = (surface.left_px + shift_in(surface.view) - to_.left) * to_.scale;
-    Surface to{surface.view, Image<float>(std::max(times(from.width(), to_.scale), 1), to_.height),
+    Surface to{surface.view, KnownRuns(std::max(times(from.width(), to_.scale), 1), to_.height),
                static_cast<int>(std::floor(first)), surface.continued};
     // The columns of the surface that is there, from which those of the larger or smaller one come.
     std::vector<int> columns;
@@ -49,15 +49,17 @@ class Mover {
       if (column >= 0 && column < from.width()) columns.push_back(column);
     }
     constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
-    tbb::parallel_for(0, to_.height, [&](int y) {
+    std::vector<float> row_from(static_cast<std::size_t>(from.width())), values(static_cast<std::size_t>(width));
+    for (int y = 0; y < to_.height; ++y) {
       const int row = static_cast<int>(std::floor((y + 0.5) / to_.scale + to_.top));
-      const std::span<float> values = to.disparity.row(y);
       std::ranges::fill(values, unknown);
-      if (row < 0 || row >= from.height()) return;
-      const std::span<const float> row_from = from.row(row);
-      for (std::size_t i = 0; i < columns.size(); ++i)
-        values[static_cast<std::size_t>(begin) + i] = disparity(row_from[static_cast<std::size_t>(columns[i])]);
-    });
+      if (row >= 0 && row < from.height()) {
+        from.copy_row(row, row_from);
+        for (std::size_t i = 0; i < columns.size(); ++i)
+          values[static_cast<std::size_t>(begin) + i] = disparity(row_from[static_cast<std::size_t>(columns[i])]);
+      }
+      to.disparity.add_row(values);
+    }
     return to;
   }
 
@@ -113,7 +115,7 @@ Painting placed(Painting painting, const Placement& placement) {
   if (to.height == 0) to.height = times(height_of(painting), to.scale);
   const Mover mover(to);
   std::visit([&](auto& marks) { mover.move(marks); }, painting.marks);
-  for (Surface& surface : painting.surfaces.seen) surface = mover.moved(surface);
+  tbb::parallel_for_each(painting.surfaces.seen, [&](Surface& surface) { surface = mover.moved(surface); });
   const auto scale = static_cast<float>(to.scale);
   painting.surfaces.tolerance_px *= scale;
   painting.relief.depth_px *= scale;

@@ -275,7 +275,7 @@ Surface decode_surface(const file::Surface& from, const Checker& checker) {
   checker.expect(from.width() >= 1 && from.height() >= 1 && from.width() <= largest_side_px &&
                      from.height() <= largest_side_px && std::abs(std::int64_t{from.left_px()}) <= largest_side_px,
                  "a surface's size or place is out of range");
-  std::optional<Image<float>> disparity =
+  std::optional<KnownRuns> disparity =
       decode_disparities({from.disparity()->data(), from.disparity()->size()}, static_cast<int>(from.width()),
                          static_cast<int>(from.height()));
   checker.expect(disparity.has_value(), "a surface is damaged");

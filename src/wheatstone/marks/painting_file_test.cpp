@@ -48,7 +48,10 @@ Surfaces small_surfaces() {
     only_here(15, y) = -2.5f;
     behind(3, y) = -6;
   }
-  return {{{left_eye, seen}, {right_eye, only_here}, {ViewPosition(2.5f), behind, -4, true}}, 1.5f};
+  return {{{left_eye, KnownRuns(seen)},
+           {right_eye, KnownRuns(only_here)},
+           {ViewPosition(2.5f), KnownRuns(behind), -4, true}},
+          1.5f};
 }
 
 Painting small(int kind) {
@@ -286,10 +289,11 @@ TEST(PaintingFile, RefusesASurfaceWhoseBytesAreDamaged) {
 
 TEST(PaintingFile, DrawsWildSurfacesWithoutHarm) {
   Painting wild = small(0);
-  Image<float>& disparity = wild.surfaces.seen[0].disparity;
+  Image<float> disparity(20, wild.surfaces.seen[0].disparity.height(), 4);
   disparity(0, 0) = 5e7f;
   disparity(1, 0) = -5e7f;
   for (int x = 0; x < 20; ++x) disparity(x, 1) = 5e7f - static_cast<float>(8 * x);
+  wild.surfaces.seen[0].disparity = KnownRuns(disparity);
   wild.surfaces.seen[1].view = ViewPosition(1000.f);
   wild.surfaces.seen[2].left_px = 65535;
   const Painting read = decode_painting(encode_painting(wild), "wild.wst");

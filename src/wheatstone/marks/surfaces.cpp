@@ -1,16 +1,8 @@
 #include "wheatstone/marks/surfaces.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace wheatstone {
-
-bool operator==(const Surface& a, const Surface& b) {
-  const auto same = [](float x, float y) { return x == y || (std::isnan(x) && std::isnan(y)); };
-  return a.view == b.view && a.left_px == b.left_px && a.continued == b.continued &&
-         a.disparity.width() == b.disparity.width() && a.disparity.height() == b.disparity.height() &&
-         std::ranges::equal(a.disparity.pixels(), b.disparity.pixels(), same);
-}
 
 namespace {
 

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "wheatstone/depth/view_position.h"
-#include "wheatstone/image/image.h"
+#include "wheatstone/image/known_runs.h"
 
 namespace wheatstone {
 
@@ -14,12 +14,11 @@ inline constexpr float disparity_steps = 16;
 /// steps; NaN where another surface tells.
 struct Surface {
   ViewPosition view;
-  Image<float> disparity;
+  KnownRuns disparity;
   int left_px = 0;         ///< column of the painting's pictures at which its first one stands
   bool continued = false;  ///< no photograph shows it: it lies behind whatever a photograph tells
+  friend bool operator==(const Surface&, const Surface&) = default;
 };
-
-bool operator==(const Surface& a, const Surface& b);
 
 /// The surfaces that a painting's marks lie on, the reference view's first: what it sees, what only other views see,
 /// and what no photograph shows and a wider view uncovers. A mark is hidden from a view where one of them lies before

@@ -56,21 +56,23 @@ void first_seen(const View& view, int row, std::span<float> to) {
 
 /// The surface that a view is the first to see, in a picture of this size.
 Surface surface_of(const View& view, int width, int height) {
-  Surface surface{view.position, Image<float>(width, height), view.frame.origin_px, view.continued};
+  Surface surface{view.position, KnownRuns(width, height), view.frame.origin_px, view.continued};
+  std::vector<float> seen(static_cast<std::size_t>(width));
   const int rows = view.disparity.height();
-  tbb::parallel_for(0, rows, [&](int row) {
+  for (int row = 0; row < rows; ++row) {
+    first_seen(view, row, seen);
     const int first = row * view.frame.scale, end = row + 1 < rows ? first + view.frame.scale : height;
-    first_seen(view, row, surface.disparity.row(first));
-    for (int y = first + 1; y < end; ++y)
-      std::ranges::copy(surface.disparity.row(first), surface.disparity.row(y).begin());
-  });
+    for (int y = first; y < end; ++y) surface.disparity.add_row(seen);
+  }
   return surface;
 }
 
 Surfaces surfaces_of(std::span<const View> views, const Style& style) {
-  Surfaces surfaces;
+  Surfaces surfaces{.seen = std::vector<Surface>(views.size())};
   const ImageView<const Rgb8> reference = views.front().colour;
-  for (const View& view : views) surfaces.seen.push_back(surface_of(view, reference.width(), reference.height()));
+  tbb::parallel_for(std::size_t{0}, views.size(), [&](std::size_t i) {
+    surfaces.seen[i] = surface_of(views[i], reference.width(), reference.height());
+  });
   surfaces.tolerance_px = ScaledStyle(style, reference.width()).depth_threshold_px;
   return surfaces;
 }

@@ -21,13 +21,12 @@ namespace {
 
 /// What a view of the scene is the first to show.
 Surface surface_of(const View& view) {
-  Surface surface{view.position, Image<float>(view.disparity.width(), view.disparity.height()), view.frame.origin_px,
-                  view.continued};
-  for (int y = 0; y < view.disparity.height(); ++y)
-    for (int x = 0; x < view.disparity.width(); ++x)
-      surface.disparity(x, y) = view.wanted.empty() || view.wanted(x, y) != 0 ? view.disparity(x, y)
-                                                                              : std::numeric_limits<float>::quiet_NaN();
-  return surface;
+  Image<float> disparity(view.disparity.width(), view.disparity.height());
+  for (int y = 0; y < disparity.height(); ++y)
+    for (int x = 0; x < disparity.width(); ++x)
+      disparity(x, y) = view.wanted.empty() || view.wanted(x, y) != 0 ? view.disparity(x, y)
+                                                                      : std::numeric_limits<float>::quiet_NaN();
+  return {view.position, KnownRuns(disparity), view.frame.origin_px, view.continued};
 }
 
 }  // namespace

@@ -11,17 +11,15 @@ namespace wheatstone {
 namespace {
 
 /// Disparities in fewer steps than a painting file has. They tell what hides marks, where far more than this counts.
-Image<float> rounded(const Image<float>& disparity) {
+KnownRuns rounded(KnownRuns disparity) {
   constexpr float steps_a_px = 4;
-  Image<float> result(disparity.width(), disparity.height());
-  std::ranges::transform(disparity.pixels(), result.pixels().begin(),
-                         [](float d) { return std::round(d * steps_a_px) / steps_a_px; });
-  return result;
+  for (float& value : disparity.values()) value = std::round(value * steps_a_px) / steps_a_px;
+  return disparity;
 }
 
 /// Of what no photograph shows, only the squares of a JPEG file that known pixels lie in are needed: the others get one
 /// colour.
-Image<Rgb8> without_unknown_squares(const Image<Rgb8>& picture, const Image<float>& disparity) {
+Image<Rgb8> without_unknown_squares(const Image<Rgb8>& picture, const KnownRuns& disparity) {
   constexpr int square_px = 16;
   Image<Rgb8> result(picture.width(), picture.height(), {128, 128, 128});
   for (int top = 0; top < picture.height(); top += square_px)
