@@ -21,10 +21,12 @@
 #include "views_argument.h"
 #include "wheatstone/app/eyes_in_film.h"
 #include "wheatstone/app/slice_film.h"
+#include "wheatstone/app/slices_of_painting.h"
 #include "wheatstone/depth/display_presets.h"
 #include "wheatstone/display/print_frame.h"
 #include "wheatstone/error.h"
 #include "wheatstone/files/output_paths.h"
+#include "wheatstone/multiview/slice_file.h"
 #include "wheatstone/photograph/find_layout.h"
 #include "wheatstone/photograph/photograph_notes.h"
 #include "wheatstone/pictures/write_image.h"
@@ -197,6 +199,34 @@ Report pack_slice_film(const PackArguments& arguments, const Session& session) {
            {"notes", notes, lines("note: ", notes)}}};
 }
 
+bool makes_slices(const PackArguments& arguments) {
+  return find_packing(arguments.packing, arguments.output).format->name == "slices";
+}
+
+/// A painting as slices, whose depth is chosen when they are shown.
+Report pack_slices(const PackArguments& arguments, const Session& session) {
+  const std::string& file = arguments.input.files.front();
+  if (unless_painting(arguments.input)() != std::string())
+    throw Error(ErrorKind::wrong_usage,
+                fmt::format("--to slices: works on a painting (.wst), not on {}; paint photographs first", file));
+  if (fs::path(arguments.output).extension() != ".exr")
+    throw Error(ErrorKind::wrong_usage,
+                fmt::format("--output: is {}, expected a name that ends with .exr for slices", arguments.output));
+  check_not_an_input(arguments.output, files_read(arguments.input));
+  report(session.progress, "reading", 0);
+  const Painting painting = sliced(read_painting_for_views(file), arguments.input.slicing);
+  report(session.progress, "slicing", 0);
+  const SliceStack stack =
+      slices_of(painting, arguments.given("--zero-parallax") ? std::optional(arguments.shift_px) : std::nullopt);
+  report(session.progress, "writing", 0);
+  write_slices(arguments.output, stack);
+  return {{{"slices", stack.slices.size()},
+           {"output", arguments.output, fmt::format("written to {}", arguments.output)},
+           {"packing", "slices"},
+           {"width", stack.width},
+           {"height", stack.height}}};
+}
+
 /// The packed file of a job, or its folder of views; none where it was not packed. A quilt's name says its layout.
 std::optional<fs::path> packed_file(const PhotographJob& job, const Packing& packing) {
   const fs::path file = job.output;
@@ -250,6 +280,7 @@ Report run_pack(const PackArguments& arguments, const Session& session) {
     return run_pack_film({arguments.input.files, arguments.input.layout, arguments.packing.to, arguments.output,
                           arguments.input.swap, arguments.shift_px, arguments.film},
                          session);
+  if (makes_slices(arguments)) return pack_slices(arguments, session);
   if (is_photograph_folder(arguments.input)) return pack_folder(arguments, session);
   return pack_one(arguments, session).report;
 }
@@ -296,6 +327,11 @@ Rows pack_rows(PackArguments& a) {
   for (Row& row : rows)
     if (std::ranges::find(for_films, name_of(row)) == for_films.end())
       row.unless.insert(row.unless.begin(), when(on_films, "on a film; it works on pictures"));
+  constexpr std::array<std::string_view, 7> for_slices{
+      "VIEWS", "--output", "--to", "--zero-parallax", "--slice-layer", "--slice-depth", "--slice-keep"};
+  for (Row& row : rows)
+    if (std::ranges::find(for_slices, name_of(row)) == for_slices.end())
+      row.unless.push_back(when([&a] { return makes_slices(a); }, "with --to slices; it works where views are made"));
   const Reason no_film = when([on_films] { return !on_films(); }, "on pictures; it works on a film");
   const Reason writes_no_film = when([on_films, is_film_of_planes] { return !on_films() && !is_film_of_planes(); },
                                      "on pictures; it works on a film, and with --slice-from and --slice-to");
@@ -314,6 +350,7 @@ Command pack_command() {
   wheatstone pack photograph.mpo --caption {title} -o card.pdf
   wheatstone pack photo.jpg --depth depth.png --display looking-glass-portrait -o photo
   wheatstone pack painting.wst --slice-depth 40% -o sliced.mpo
+  wheatstone pack painting.wst --to slices -o planes.exr
   wheatstone pack painting.wst --slice-from 0% --slice-to 100% --frames 120 -o slices.mp4
   wheatstone pack views --to lenticular --screen step-9 -o screen.png
   wheatstone pack views --to quilt --quilt 8x6 -o universe

@@ -233,6 +233,7 @@ std::span<const PackingFormat> packing_formats() {
     add_many_views(all);
     add_matched(all);
     all.push_back({"card", "", ".pdf", 2, one_file(write_card)});
+    all.push_back({"slices", "", "", 0, {}});
     return all;
   }();
   return formats;
@@ -261,7 +262,8 @@ Rows packing_rows(PackingArguments& a, const std::string& output) {
   };
   const Reason named_by_ending = [&a, &output] {
     const Packing packing = find_packing(a, output);
-    const bool is_picture = !is_one_of(packing.format->name, {"mpo", "jps", "wiggle", "exr", "disparity", "depth"});
+    const bool is_picture =
+        !is_one_of(packing.format->name, {"mpo", "jps", "wiggle", "exr", "disparity", "depth", "slices"});
     const bool is_named = packing.format->name == "views" || (is_picture && !fs::path(output).has_extension());
     return is_named ? "" : fmt::format("with --to {}; the ending of the output says the format", packing.name);
   };
@@ -318,7 +320,7 @@ std::string ending_for(const Packing& packing, const PackingArguments& arguments
 
 void check_ending(const Packing& packing, const std::string& output) {
   const std::string_view name = packing.format->name;
-  const bool is_picture = !is_one_of(name, {"mpo", "jps", "views", "wiggle", "exr", "disparity", "depth"}) &&
+  const bool is_picture = !is_one_of(name, {"mpo", "jps", "views", "wiggle", "exr", "disparity", "depth", "slices"}) &&
                           !(name == "card" && ending_of(output) == ".pdf");
   if (is_picture && (fs::path(output).has_extension() || name != "quilt")) check_picture_ending("--output", output);
 }

@@ -60,7 +60,7 @@ struct PackingFormat {
   std::string_view alias;   ///< ffmpeg's name; empty: it has none
   std::string_view ending;  ///< of the outputs that are packed so where no format is named; empty: none
   int views;                ///< that it takes; 0: any number
-  /// Returns the name of what was written.
+  /// Returns the name of what was written. None of slices, which are not made of views.
   std::function<std::string(const PackingJob&)> write;
   /// Of a format that is one picture in which every view has its place: how.
   std::function<DisplayComposition(const Packing&)> composition = {};

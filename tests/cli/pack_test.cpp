@@ -212,7 +212,7 @@ TEST(PackCommand, EveryFormatOfTheTableIsListedAndWrittenByEachOfItsNames) {
   const std::string help = run_in(folder, {"pack", "--help"}).output;
   for (const cli::PackingFormat& format : cli::packing_formats()) {
     EXPECT_THAT(help, HasSubstr(std::string(format.name)));
-    if (format.name == "views") continue;  // a folder, tested below
+    if (format.name == "views" || !format.write) continue;  // a folder, and slices of a painting: tested below
     for (const std::string_view name : {format.name, format.alias}) {
       if (name.empty()) continue;
       const std::vector<std::string> words = pack_words(format, name);
@@ -315,6 +315,35 @@ TEST(PackCommand, PlanesTravelThroughAPaintingInAFilm) {
           "as 'auto' on a film");
   refused({"--frames", "3", "-o", "o.mpo"}, "--frames: has no effect on a picture");
   EXPECT_FALSE(std::filesystem::exists(folder / "o.mp4"));
+}
+
+TEST(PackCommand, MakesSlicesOfAPaintingWhoseDepthIsChosenWhenTheyAreShown) {
+  const TemporaryFolder folder;
+  put_still(folder);
+  run_in(folder, {"paint", "left.png", "right.png", "-o", "painted"});
+  const auto slices_of = [&](std::vector<std::string> more) {
+    std::vector<std::string> words{"--json", "pack", "painted/painting.wst", "--to", "slices"};
+    words.insert(words.end(), more.begin(), more.end());
+    return nlohmann::json::parse(run_in(folder, words).output);
+  };
+  EXPECT_GT(slices_of({"-o", "slices.exr"})["slices"], 8);
+  run_in(folder, {"render", "slices.exr", "--near", "20", "--far", "40", "-o", "views"});
+  run_in(folder, {"share", "slices.exr", "-o", "page.html"});
+  EXPECT_TRUE(std::filesystem::exists(folder / "page.html"));
+  // A plane that cuts the finest layer leaves other strokes to see.
+  slices_of({"--slice-depth", "50%", "-o", "cut.exr"});
+  run_in(folder, {"render", "cut.exr", "--near", "20", "--far", "40", "-o", "cut"});
+  EXPECT_NE(read_image(folder / "views/view_000.png"), read_image(folder / "cut/view_000.png"));
+
+  const auto refused = [&](std::vector<std::string> words, int code, const char* why) {
+    words.insert(words.begin(), "pack");
+    words.insert(words.end(), {"--to", "slices"});
+    expect_refused(folder, words, code, why);
+  };
+  refused({"left.png", "right.png", "-o", "o.exr"}, 2, "--to slices: works on a painting (.wst), not on left.png");
+  refused({"painted/painting.wst", "-o", "o.png"}, 2, "expected a name that ends with .exr");
+  refused({"painted/painting.wst", "--views", "5", "-o", "o.exr"}, 2, "--views: has no effect with --to slices");
+  refused({"none.wst", "-o", "o.exr"}, 3, "none.wst: cannot be opened");
 }
 
 using PackOnGpu = NeedsGpu;

@@ -12,14 +12,14 @@
 #include "wheatstone/stereo/outer_view.h"
 
 namespace wheatstone {
-namespace {
-
 void check_has_surfaces(const Painting& painting) {
   if (painting.surfaces.seen.empty())
     throw Error(ErrorKind::bad_input,
                 "the painting has no surfaces, which other views than those of two eyes need; paint its photographs "
                 "again, with strokes that are propagated");
 }
+
+namespace {
 
 /// Eye separations between the outermost views, with which the depth takes at most `depth_share` of a view's width.
 float span_for(const DisplayViewsOptions& options, const DepthEnds& ends, float scale) {

@@ -42,6 +42,9 @@ struct DisplayPlan {
 /// Throws Error{wrong_usage} where there are no views, or the screen plane leaves nothing to show.
 DisplayPlan plan_display(PictureSize painting, const DepthEnds& ends, const DisplayViewsOptions& options);
 
+/// Throws Error{bad_input} for a painting without surfaces, as those of two eyes and of old files.
+void check_has_surfaces(const Painting& painting);
+
 /// A painting as a display shows it, and how that was chosen.
 struct DisplayViews {
   DisplayPlan plan;
@@ -49,8 +52,7 @@ struct DisplayViews {
 };
 
 /// Draws a painting for a display: its views, or where a composition is given, the one picture of them. Throws
-/// Error{bad_input} where the painting has no surfaces, as those of two eyes and of old files, and other views than
-/// those of the two eyes are wanted.
+/// as check_has_surfaces where other views than those of the two eyes are wanted.
 DisplayViews draw_display_views(const Painting& painting, const DisplayViewsOptions& options,
                                 const Progress& progress = {},
                                 const std::optional<DisplayComposition>& composition = {});

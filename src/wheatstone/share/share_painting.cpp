@@ -77,18 +77,6 @@ bool needs_pictures(const Painting& painting) {
   return !std::visit(is_drawn, painting.marks) || painting.relief.depth_px > 0;
 }
 
-/// For each surface the painting as its view shows it, in the surface's own columns.
-std::vector<Image<Rgb8>> pictures_on_surfaces(const Painting& painting) {
-  std::vector<Image<Rgb8>> pictures;
-  for (const Surface& surface : painting.surfaces.seen) {
-    const Placement placement{.width = surface.disparity.width(),
-                              .height = surface.disparity.height(),
-                              .left = static_cast<double>(surface.left_px)};
-    pictures.push_back(std::move(present(painting, {.views = {surface.view}, .placement = placement}).views.front()));
-  }
-  return pictures;
-}
-
 /// The strokes that some view shows.
 StrokePainting strokes_that_show(const Painting& painting) {
   constexpr float least_share = 1.f / 32;
@@ -135,7 +123,7 @@ SharedPicture share_as_pictures(const Painting& painting, const std::string& tit
                 "photographs again, with strokes that are propagated");
   Ground ground = ground_of(painting, title);
   ground.facts["kind"] = "layered";
-  add_pictures(pictures_on_surfaces(painting), painting.surfaces, ground.shared.parts);
+  add_pictures(present_on_surfaces(painting), painting.surfaces, ground.shared.parts);
   ground.shared.facts = text_of(ground.facts);
   return ground.shared;
 }
