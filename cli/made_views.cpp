@@ -21,14 +21,9 @@ const DisplayPreset* display_of(const PackingArguments& arguments) {
   return nullptr;
 }
 
-/// The photograph's two views with their geometry.
-struct Subject {
-  StereoPair pictures;
-  StereoGeometry geometry;
-  std::string how;
-};
+}  // namespace
 
-Subject read_subject(const MadeViews& wanted, const Session& session) {
+MeasuredPhotograph measure_photograph(const MadeViews& wanted, const Session& session) {
   const std::vector<std::string>& files = wanted.input.files;
   const StereoArguments photograph{.left = files.front(),
                                    .right = files.size() > 1 ? files[1] : "",
@@ -47,8 +42,6 @@ Subject read_subject(const MadeViews& wanted, const Session& session) {
   tell_of_match(read, measure_match(read.pair.pictures, matched, {}), session);
   return {std::move(read.pair.pictures), std::move(matched.geometry), "made of a matched pair"};
 }
-
-}  // namespace
 
 bool has_own_depth(const ViewsArguments& input, const DepthArguments& depth) {
   if (input.files.size() != 1 || !is_photograph(input)) return false;
@@ -72,7 +65,7 @@ bool makes_views(const ViewsArguments& input, const Packing& packing, const Pack
 }
 
 ReadViews make_views(const MadeViews& wanted, const Packing& packing, const Session& session) {
-  Subject subject = read_subject(wanted, session);
+  MeasuredPhotograph subject = measure_photograph(wanted, session);
   const int count = views_of_photograph(wanted.input, packing, wanted.packing);
   ReadViews made;
   made.how = subject.how;

@@ -21,6 +21,17 @@ struct MadeViews {
 /// Whether the one file has its own depth, or is given it.
 bool has_own_depth(const ViewsArguments& input, const DepthArguments& depth);
 
+/// A photograph's two views with their geometry, and where they come from.
+struct MeasuredPhotograph {
+  StereoPair pictures;
+  StereoGeometry geometry;
+  std::string how;
+};
+
+/// Reads it with its own depth, or rectifies and matches the pair. Throws Error as read_photographs and
+/// read_single_picture.
+MeasuredPhotograph measure_photograph(const MadeViews& wanted, const Session& session);
+
 /// How many views the packing takes of a photograph; 2 where it takes what there is.
 int views_of_photograph(const ViewsArguments& input, const Packing& packing, const PackingArguments& arguments);
 

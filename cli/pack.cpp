@@ -21,7 +21,7 @@
 #include "views_argument.h"
 #include "wheatstone/app/eyes_in_film.h"
 #include "wheatstone/app/slice_film.h"
-#include "wheatstone/app/slices_of_painting.h"
+#include "wheatstone/app/slices_of_pictures.h"
 #include "wheatstone/depth/display_presets.h"
 #include "wheatstone/display/print_frame.h"
 #include "wheatstone/error.h"
@@ -199,25 +199,38 @@ Report pack_slice_film(const PackArguments& arguments, const Session& session) {
            {"notes", notes, lines("note: ", notes)}}};
 }
 
-bool makes_slices(const PackArguments& arguments) {
-  return find_packing(arguments.packing, arguments.output).format->name == "slices";
+bool makes_slices(const PackArguments& arguments) { return arguments.packing.to == "slices"; }
+
+/// The surfaces of a painting, or of a photograph, with the pictures on them.
+PicturesOnSurfaces read_surfaces(const PackArguments& arguments, const Session& session) {
+  if (unless_painting(arguments.input)().empty()) {
+    report(session.progress, "reading", 0);
+    const Painting painting = read_painting_for_views(arguments.input.files.front());
+    return pictures_on_surfaces(sliced(painting, arguments.input.slicing));
+  }
+  if (!is_photograph(arguments.input) || is_photograph_folder(arguments.input))
+    throw Error(ErrorKind::wrong_usage,
+                fmt::format("--to slices: works on a painting (.wst) or a photograph, not on {}",
+                            arguments.input.files.front()));
+  const MeasuredPhotograph photograph = measure_photograph(
+      {arguments.input, arguments.packing, arguments.depth, arguments.given, arguments.shift_px, arguments.max_size},
+      session);
+  constexpr ViewRange wanted{ViewPosition(-1.f), ViewPosition(1.f)};
+  return pictures_on_surfaces(photograph.pictures, photograph.geometry, wanted);
 }
 
-/// A painting as slices, whose depth is chosen when they are shown.
+/// A painting, or a photograph, as slices, whose depth is chosen when they are shown.
 Report pack_slices(const PackArguments& arguments, const Session& session) {
-  const std::string& file = arguments.input.files.front();
-  if (unless_painting(arguments.input)() != std::string())
-    throw Error(ErrorKind::wrong_usage,
-                fmt::format("--to slices: works on a painting (.wst), not on {}; paint photographs first", file));
   if (fs::path(arguments.output).extension() != ".exr")
     throw Error(ErrorKind::wrong_usage,
                 fmt::format("--output: is {}, expected a name that ends with .exr for slices", arguments.output));
-  check_not_an_input(arguments.output, files_read(arguments.input));
-  report(session.progress, "reading", 0);
-  const Painting painting = sliced(read_painting_for_views(file), arguments.input.slicing);
+  std::vector<fs::path> inputs = files_read(arguments.input);
+  inputs.emplace_back(arguments.depth.file);
+  check_not_an_input(arguments.output, inputs);
+  const PicturesOnSurfaces scene = read_surfaces(arguments, session);
   report(session.progress, "slicing", 0);
   const SliceStack stack =
-      slices_of(painting, arguments.given("--zero-parallax") ? std::optional(arguments.shift_px) : std::nullopt);
+      slices_of(scene, arguments.given("--zero-parallax") ? std::optional(arguments.shift_px) : std::nullopt);
   report(session.progress, "writing", 0);
   write_slices(arguments.output, stack);
   return {{{"slices", stack.slices.size()},
@@ -329,9 +342,17 @@ Rows pack_rows(PackArguments& a) {
       row.unless.insert(row.unless.begin(), when(on_films, "on a film; it works on pictures"));
   constexpr std::array<std::string_view, 7> for_slices{
       "VIEWS", "--output", "--to", "--zero-parallax", "--slice-layer", "--slice-depth", "--slice-keep"};
-  for (Row& row : rows)
-    if (std::ranges::find(for_slices, name_of(row)) == for_slices.end())
-      row.unless.push_back(when([&a] { return makes_slices(a); }, "with --to slices; it works where views are made"));
+  constexpr std::array<std::string_view, 8> for_slices_of_photographs{
+      "--layout", "--swap", "--rectify", "--max-size", "--depth", "--depth-model", "--depth-is", "--strength"};
+  for (Row& row : rows) {
+    if (std::ranges::find(for_slices, name_of(row)) != for_slices.end()) continue;
+    const bool of_photographs =
+        std::ranges::find(for_slices_of_photographs, name_of(row)) != for_slices_of_photographs.end();
+    row.unless.push_back(
+        when([&a, of_photographs] { return makes_slices(a) && !(of_photographs && is_photograph(a.input)); },
+             of_photographs ? "on a painting's slices; it works on a photograph"
+                            : "with --to slices; it works where views are made"));
+  }
   const Reason no_film = when([on_films] { return !on_films(); }, "on pictures; it works on a film");
   const Reason writes_no_film = when([on_films, is_film_of_planes] { return !on_films() && !is_film_of_planes(); },
                                      "on pictures; it works on a film, and with --slice-from and --slice-to");
@@ -351,6 +372,7 @@ Command pack_command() {
   wheatstone pack photo.jpg --depth depth.png --display looking-glass-portrait -o photo
   wheatstone pack painting.wst --slice-depth 40% -o sliced.mpo
   wheatstone pack painting.wst --to slices -o planes.exr
+  wheatstone pack photo.jpg --depth depth.png --to slices -o photo.exr
   wheatstone pack painting.wst --slice-from 0% --slice-to 100% --frames 120 -o slices.mp4
   wheatstone pack views --to lenticular --screen step-9 -o screen.png
   wheatstone pack views --to quilt --quilt 8x6 -o universe

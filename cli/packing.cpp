@@ -240,8 +240,8 @@ std::span<const PackingFormat> packing_formats() {
 }
 
 Reason unless_matched(const PackingArguments& a, const std::string& output) {
-  return only_with(a, output, {"rgbd", "disparity", "depth"},
-                   "it works with disparity, depth and rgbd, which match the views");
+  return only_with(a, output, {"rgbd", "disparity", "depth", "slices"},
+                   "it works with disparity, depth, rgbd and slices, which match the views");
 }
 
 Reason if_matched(const PackingArguments& a, const std::string& output) {

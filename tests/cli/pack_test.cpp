@@ -340,7 +340,11 @@ TEST(PackCommand, MakesSlicesOfAPaintingWhoseDepthIsChosenWhenTheyAreShown) {
     words.insert(words.end(), {"--to", "slices"});
     expect_refused(folder, words, code, why);
   };
-  refused({"left.png", "right.png", "-o", "o.exr"}, 2, "--to slices: works on a painting (.wst), not on left.png");
+  // A photograph has slices, too, of its own depth or matched.
+  run_in(folder, {"pack", "left.png", "right.png", "--to", "slices", "--max-size", "160", "-o", "pair.exr"});
+  EXPECT_EQ(nlohmann::json::parse(run_in(folder, {"info", "pair.exr", "--json"}).output)["width"], 160);
+  refused({"views", "-o", "o.exr"}, 2, "--to slices: works on a painting (.wst) or a photograph, not on views");
+  refused({"painted/painting.wst", "--swap", "-o", "o.exr"}, 2, "--swap: has no effect on a painting's slices");
   refused({"painted/painting.wst", "-o", "o.png"}, 2, "expected a name that ends with .exr");
   refused({"painted/painting.wst", "--views", "5", "-o", "o.exr"}, 2, "--views: has no effect with --to slices");
   refused({"none.wst", "-o", "o.exr"}, 3, "none.wst: cannot be opened");

@@ -12,8 +12,8 @@
 #include "wheatstone/stereo/outer_view.h"
 
 namespace wheatstone {
-void check_has_surfaces(const Painting& painting) {
-  if (painting.surfaces.seen.empty())
+void check_has_surfaces(const Surfaces& surfaces) {
+  if (surfaces.seen.empty())
     throw Error(ErrorKind::bad_input,
                 "the painting has no surfaces, which other views than those of two eyes need; paint its photographs "
                 "again, with strokes that are propagated");
@@ -109,7 +109,7 @@ DisplayPlan plan_display(PictureSize painting, const DepthEnds& ends, const Disp
 
 DisplayViews draw_display_views(const Painting& painting, const DisplayViewsOptions& options, const Progress& progress,
                                 const std::optional<DisplayComposition>& composition) {
-  check_has_surfaces(painting);
+  check_has_surfaces(painting.surfaces);
   if (!options.depth.regions.empty())
     return draw_display_views(with_placed_depth(painting, options), for_placed(options), progress, composition);
   DisplayViews result;

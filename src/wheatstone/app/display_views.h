@@ -42,8 +42,8 @@ struct DisplayPlan {
 /// Throws Error{wrong_usage} where there are no views, or the screen plane leaves nothing to show.
 DisplayPlan plan_display(PictureSize painting, const DepthEnds& ends, const DisplayViewsOptions& options);
 
-/// Throws Error{bad_input} for a painting without surfaces, as those of two eyes and of old files.
-void check_has_surfaces(const Painting& painting);
+/// Throws Error{bad_input} where a painting has none, as those of two eyes and of old files.
+void check_has_surfaces(const Surfaces& surfaces);
 
 /// A painting as a display shows it, and how that was chosen.
 struct DisplayViews {

@@ -59,15 +59,4 @@ Presented present(const Painting& painting, const Presentation& presentation) {
   return presented;
 }
 
-std::vector<Image<Rgb8>> present_on_surfaces(const Painting& painting) {
-  std::vector<Image<Rgb8>> pictures;
-  for (const Surface& surface : painting.surfaces.seen) {
-    const Placement placement{.width = surface.disparity.width(),
-                              .height = surface.disparity.height(),
-                              .left = static_cast<double>(surface.left_px)};
-    pictures.push_back(std::move(present(painting, {.views = {surface.view}, .placement = placement}).views.front()));
-  }
-  return pictures;
-}
-
 }  // namespace wheatstone

@@ -32,7 +32,4 @@ struct Presented {
 /// in memory beside it. Throws as `prepare`, `draw` and `compose` do.
 Presented present(const Painting& painting, const Presentation& presentation);
 
-/// For each of the painting's surfaces, the painting as its view shows it, in the surface's own columns.
-std::vector<Image<Rgb8>> present_on_surfaces(const Painting& painting);
-
 }  // namespace wheatstone

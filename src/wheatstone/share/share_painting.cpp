@@ -10,6 +10,7 @@
 #include "wheatstone/drawing/hidden_strokes.h"
 #include "wheatstone/error.h"
 #include "wheatstone/files/deflate.h"
+#include "wheatstone/painting/pictures_on_surfaces.h"
 #include "wheatstone/painting/two_eyes.h"
 #include "wheatstone/pictures/write_image.h"
 #include "wheatstone/share/mark_parts_internal.h"
@@ -123,7 +124,7 @@ SharedPicture share_as_pictures(const Painting& painting, const std::string& tit
                 "photographs again, with strokes that are propagated");
   Ground ground = ground_of(painting, title);
   ground.facts["kind"] = "layered";
-  add_pictures(present_on_surfaces(painting), painting.surfaces, ground.shared.parts);
+  add_pictures(pictures_on_surfaces(painting).pictures, painting.surfaces, ground.shared.parts);
   ground.shared.facts = text_of(ground.facts);
   return ground.shared;
 }

@@ -1,4 +1,4 @@
-#include "wheatstone/app/slices_of_painting.h"
+#include "wheatstone/app/slices_of_pictures.h"
 
 #include <tbb/parallel_for.h>
 
@@ -10,7 +10,6 @@
 
 #include "wheatstone/app/display_views.h"
 #include "wheatstone/image/colour.h"
-#include "wheatstone/painting/present.h"
 
 namespace wheatstone {
 namespace {
@@ -158,19 +157,19 @@ class Slicer {
 
 }  // namespace
 
-SliceStack slices_of(const Painting& painting, std::optional<float> zero_parallax_px) {
-  check_has_surfaces(painting);
-  const std::vector<Image<Rgb8>> pictures = present_on_surfaces(painting);
-  const Planes planes = planes_for(painting.surfaces);
+SliceStack slices_of(const PicturesOnSurfaces& scene, std::optional<float> zero_parallax_px) {
+  check_has_surfaces(scene.surfaces);
+  const Planes planes = planes_for(scene.surfaces);
   const float zero_px = zero_parallax_px.value_or((planes.nearest_px + planes.disparity_px(planes.count - 1)) / 2);
-  const ViewRange known = known_views(painting.surfaces);
-  SliceStack stack{.width = width_of(painting),
-                   .height = height_of(painting),
+  const ViewRange known = known_views(scene.surfaces);
+  const Image<Rgb8>& reference = scene.pictures.front();
+  SliceStack stack{.width = reference.width(),
+                   .height = reference.height(),
                    .span = 2 * std::min(central_view - known.first, known.last - central_view),
                    .tone = {.look = Look::thesis, .exposure = 1, .stretch = Stretch::linear},
-                   .viewing = {.width_px = width_of(painting)},
+                   .viewing = {.width_px = reference.width()},
                    .slices = std::vector<Slice>(static_cast<std::size_t>(planes.count))};
-  const Slicer slicer(painting.surfaces, pictures, planes);
+  const Slicer slicer(scene.surfaces, scene.pictures, planes);
   tbb::parallel_for(0, planes.count, [&](int plane) {
     Slice& slice = stack.slices[static_cast<std::size_t>(plane)];
     slice = slicer.slice(plane);

@@ -1,4 +1,4 @@
-#include "wheatstone/app/slices_of_painting.h"
+#include "wheatstone/app/slices_of_pictures.h"
 
 #include <gtest/gtest.h>
 
@@ -12,13 +12,15 @@
 #include "wheatstone/painting/present.h"
 #include "wheatstone/synthetic/synthetic_still.h"
 
-namespace wheatstone::slices_of_painting_test {
+namespace wheatstone::slices_of_pictures_test {
+
+const SyntheticStill& still() {
+  static const SyntheticStill made = make_synthetic_still({.width = 320, .height = 240, .samples_a_side = 2});
+  return made;
+}
 
 const Painting& painting_of_still() {
-  static const Painting painting = [] {
-    const SyntheticStill still = make_synthetic_still({.width = 320, .height = 240, .samples_a_side = 2});
-    return plan_painting(still.pictures, still.geometry, style_by_name("impressionist"));
-  }();
+  static const Painting painting = plan_painting(still().pictures, still().geometry, style_by_name("impressionist"));
   return painting;
 }
 
@@ -34,7 +36,7 @@ double empty_share(const Image<Rgb8>& picture) {
 }
 
 TEST(SlicesOfAPainting, ShowItsViews) {
-  const SliceStack stack = slices_of(painting_of_still(), 0.f);
+  const SliceStack stack = slices_of(pictures_on_surfaces(painting_of_still()), 0.f);
   EXPECT_GT(stack.slices.size(), 8);
   EXPECT_GE(stack.span, 2);
   for (const float position : {-1.f, -0.5f, 0.f, 0.5f, 1.f}) {
@@ -50,19 +52,28 @@ TEST(SlicesOfAPainting, ShowItsViews) {
   }
 }
 
+TEST(SlicesOfAPhotograph, ShowWhatItsEyesSee) {
+  constexpr ViewRange wanted{ViewPosition(-1.f), ViewPosition(1.f)};
+  const SliceStack stack = slices_of(pictures_on_surfaces(still().pictures, still().geometry, wanted), 0.f);
+  EXPECT_GT(psnr_db(view_of(stack, -0.5f), still().pictures.left), 40);
+  EXPECT_GT(psnr_db(view_of(stack, 0.5f), still().pictures.right), 23);
+  for (const float position : {-0.5f, 0.f, 0.5f}) EXPECT_LT(empty_share(view_of(stack, position)), 0.001) << position;
+}
+
 TEST(SlicesOfAPainting, HaveTheScreenPlaneWhereItIsWanted) {
-  const SliceStack as_it_is = slices_of(painting_of_still(), 0.f), moved = slices_of(painting_of_still(), 7.f);
+  const SliceStack as_it_is = slices_of(pictures_on_surfaces(painting_of_still()), 0.f),
+                   moved = slices_of(pictures_on_surfaces(painting_of_still()), 7.f);
   ASSERT_EQ(as_it_is.slices.size(), moved.slices.size());
   for (std::size_t i = 0; i < moved.slices.size(); ++i)
     EXPECT_NEAR(moved.slices[i].parallax_px - as_it_is.slices[i].parallax_px, 7, 1e-3);
-  const SliceStack middle = slices_of(painting_of_still());
+  const SliceStack middle = slices_of(pictures_on_surfaces(painting_of_still()));
   EXPECT_NEAR(middle.slices.front().parallax_px, -middle.slices.back().parallax_px, 1);
 }
 
 TEST(SlicesOfAPainting, AreRefusedWithoutSurfaces) {
   Painting apart = painting_of_still();
   apart.surfaces.seen.clear();
-  expect_error(ErrorKind::bad_input, "has no surfaces", [&] { slices_of(apart); });
+  expect_error(ErrorKind::bad_input, "has no surfaces", [&] { slices_of(pictures_on_surfaces(apart)); });
 }
 
-}  // namespace wheatstone::slices_of_painting_test
+}  // namespace wheatstone::slices_of_pictures_test
