@@ -19,10 +19,21 @@ class ModelShading {
  public:
   ModelShading(const Model& model, const ModelScene& scene);
 
-  /// A triangle in one view, prepared for shading at any of its places.
+  /// What the surface of a triangle has at its corners, the same for all views.
+  struct Corners {
+    std::array<std::array<float, 3>, 3> normal;
+    std::array<LinearColour, 3> colour;
+    std::array<std::array<float, 2>, 3> place;  ///< in the texture
+    const ModelTexture* texture;                ///< null: none
+    std::array<double, 3> weight;               ///< 1/depth in perspective
+    bool turned;                                ///< the model's normals point away from the central camera
+  };
+  Corners corners(const ScreenTriangles& triangles, std::uint32_t index) const;
+
+  /// A triangle in one view, prepared for shading at any of its places. Borrows the triangle and its corners.
   class Surface {
    public:
-    Surface(const ModelShading& shading, const ScreenTriangles& triangles, std::uint32_t index, float view);
+    Surface(const ModelShading& shading, const ScreenTriangle& screen, const Corners& corners, float view);
 
     struct Point {
       LinearColour colour;
@@ -30,35 +41,35 @@ class ModelShading {
     };
     /// Colour, disparity and depth at a place of the view, in pixels, that lies in the triangle up to rounding.
     Point at(double x, double y) const;
+    /// The level of the texture in the middle of the triangle.
+    float middle_level() const;
 
    private:
-    friend class ModelShading;
-    void set_corners(const ScreenTriangles& triangles, const ScreenTriangle& screen);
-    bool is_turned(const ScreenTriangle& screen) const;
+    /// The level of the texture at a place in it. `per_weight` is 1/sum of weighted shares.
+    float texture_level(double u, double v, double per_weight) const;
 
     const ModelShading* shading_;
+    const ScreenTriangle* screen_;
+    const Corners* corners_;
     float view_;
-    bool turned_ = false;                          ///< the model's normals point away from the camera
+    bool turned_;
     std::array<double, 3> begin_, across_, down_;  ///< share of each corner at (0, 0), and its slopes
-    std::array<double, 3> weight_;                 ///< 1/depth of the corners in perspective
-    std::array<float, 3> disparity_, depth_;
-    std::array<std::array<float, 3>, 3> normal_;
-    std::array<LinearColour, 3> colour_;
-    std::array<std::array<float, 2>, 3> place_;  ///< in the texture
-    const ModelTexture* texture_ = nullptr;
+    /// Slopes of the sum of weights, and of places in the texture times weights.
+    std::array<double, 2> weights_by_, u_by_, v_by_;
   };
 
-  /// How finely a triangle is lit: in each pixel; at its corners, and linear between them, where it is small and has no
-  /// texture; or once where it is hardly larger than a pixel. Highlights are different in each view, and lit by pixel.
+  /// How finely a triangle is lit: in each pixel; at its corners, and linear between them, where it is small; or once
+  /// where it is hardly larger than a pixel. Highlights are different in each view, and lit by pixel.
   enum class Fineness : std::uint8_t { by_pixel, by_corner, once };
   Fineness fineness(const ScreenTriangle& triangle) const;
 
-  /// The colours in the central view at the corners of a triangle that is not lit by pixel. If it is lit once, the
-  /// first of them is the colour of the whole triangle.
-  std::array<LinearColour, 3> corner_colours(const ScreenTriangles& triangles, std::uint32_t index) const;
+  /// The colours in the central view at the corners of a triangle that is lit by corner, without its texture.
+  std::array<LinearColour, 3> lit_corners(const ScreenTriangle& screen, const Corners& corners) const;
+  /// The colour in the central view of a triangle that is lit once.
+  LinearColour lit_once(const ScreenTriangle& screen, const Corners& corners) const;
 
  private:
-  LinearColour colour_at_once(const ScreenTriangle& screen, const Surface& surface) const;
+  bool is_turned(const ScreenTriangle& screen) const;
   LinearColour lit(const std::array<float, 3>& normal, const std::array<float, 3>& to_camera, bool turned, float view,
                    const LinearColour& colour) const;
   std::array<float, 3> to_camera(double x, double y) const;

@@ -31,11 +31,6 @@ Image<Rgb8> half_of(const Image<Rgb8>& picture) {
   return half;
 }
 
-int wrapped(int place, int size) {
-  const int rest = place % size;
-  return rest < 0 ? rest + size : rest;
-}
-
 }  // namespace
 
 const std::array<float, 256>& linear_codes() {
@@ -60,8 +55,10 @@ std::array<float, 3> ModelTexture::in_level(std::size_t level, float u, float v)
   const float y = (1 - (v - std::floor(v))) * static_cast<float>(height) - 0.5f;
   const float left = std::floor(x), top = std::floor(y);
   const float across = x - left, down = y - top;
-  const int x0 = wrapped(static_cast<int>(left), width), x1 = wrapped(static_cast<int>(left) + 1, width);
-  const int y0 = wrapped(static_cast<int>(top), height), y1 = wrapped(static_cast<int>(top) + 1, height);
+  // The texture repeats; places lie at most half of a pixel beside it.
+  const int column = static_cast<int>(left), row = static_cast<int>(top);
+  const int x0 = column < 0 ? width - 1 : column, x1 = column + 1 < width ? column + 1 : 0;
+  const int y0 = row < 0 ? height - 1 : row, y1 = row + 1 < height ? row + 1 : 0;
   std::array<float, 3> sum{};
   const auto add = [&](Rgb8 pixel, float weight) {
     sum[0] += weight * linear[pixel.r];
@@ -75,9 +72,11 @@ std::array<float, 3> ModelTexture::in_level(std::size_t level, float u, float v)
   return sum;
 }
 
-std::array<float, 3> ModelTexture::at(float u, float v, float pixels_across) const {
-  const auto last = static_cast<float>(levels_.size() - 1);
-  const float level = pixels_across > 1 ? std::min(std::log2(pixels_across), last) : 0;
+float ModelTexture::level(float pixels_across) const {
+  return pixels_across > 1 ? std::min(std::log2(pixels_across), static_cast<float>(levels_.size() - 1)) : 0;
+}
+
+std::array<float, 3> ModelTexture::at(float u, float v, float level) const {
   const auto finer = static_cast<std::size_t>(level);
   const float share = level - static_cast<float>(finer);
   std::array<float, 3> colour = in_level(finer, u, v);

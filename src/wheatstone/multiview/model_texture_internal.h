@@ -14,9 +14,11 @@ class ModelTexture {
 
   int width() const { return levels_.front().width(); }
   int height() const { return levels_.front().height(); }
-  /// Linear light at a place of which 0, 0 is the lower left corner and 1, 1 the upper right one, over so many pixels
-  /// of the texture across: interpolated in the two levels next to it.
-  std::array<float, 3> at(float u, float v, float pixels_across) const;
+  /// The level in which one pixel is as large as so many pixels of the texture across, between two of them.
+  float level(float pixels_across) const;
+  /// Linear light at a place of which 0, 0 is the lower left corner and 1, 1 the upper right one: interpolated in the
+  /// two levels next to `level`.
+  std::array<float, 3> at(float u, float v, float level) const;
 
  private:
   std::array<float, 3> in_level(std::size_t level, float u, float v) const;

@@ -214,6 +214,48 @@ TEST(ModelViews, ATextureLiesWhereItsPlacesSay) {
   EXPECT_LT(lower_left.r, upper_left.r / 2);
 }
 
+/// A square with a texture, that leans away from the camera, of 2·side² triangles.
+Model leaning_square(std::uint32_t side) {
+  Model model;
+  for (std::uint32_t j = 0; j <= side; ++j) {
+    for (std::uint32_t i = 0; i <= side; ++i) {
+      const float u = static_cast<float>(i) / static_cast<float>(side),
+                  v = static_cast<float>(j) / static_cast<float>(side);
+      model.positions.push_back({2. * u - 1, 2. * v - 1, -0.8 * v});
+      model.normals.push_back({0, 0.37f, 0.93f});
+      model.texture_places.push_back({u, v});
+      if (i == side || j == side) continue;
+      const std::uint32_t a = j * (side + 1) + i, b = a + side + 1;
+      model.triangles.push_back({a, a + 1, b + 1});
+      model.triangles.push_back({a, b + 1, b});
+    }
+  }
+  model.material_of.assign(model.triangles.size(), 0);
+  model.materials.push_back({"square", {1, 1, 1}, 0});
+  Image<Rgb8> texture(512, 512);
+  for (int y = 0; y < 512; ++y)
+    for (int x = 0; x < 512; ++x)
+      texture(x, y) = (x / 16 + y / 16) % 2 == 0 ? Rgb8{200, static_cast<std::uint8_t>(x / 2), 40} : Rgb8{60, 90, 160};
+  model.textures.push_back(std::move(texture));
+  return model;
+}
+
+TEST(ModelViews, SmallTrianglesWithATextureLookLikeLargeOnes) {
+  const ModelScene scene = over_sheet(false);
+  const Rig three = evenly_spaced(width, height, 3, 2);
+  const auto of_large = render_model(leaning_square(1), scene, three).views;
+  const auto of_small = render_model(leaning_square(20), scene, three).views;  // of 5 px
+  for (std::size_t v = 0; v < of_large.size(); ++v) {
+    // Pixels on edges of triangles read the texture in more places.
+    double sum = 0;
+    for (std::size_t i = 0; i < of_large[v].pixels().size(); ++i) {
+      const Rgb8 a = of_large[v].pixels()[i], b = of_small[v].pixels()[i];
+      sum += std::abs(a.r - b.r) + std::abs(a.g - b.g) + std::abs(a.b - b.b);
+    }
+    EXPECT_LT(sum / (3. * width * height), 0.7) << v;
+  }
+}
+
 TEST(ModelViews, ASideThatOnlyAnOuterViewSeesIsLitAsThatSide) {
   // A wall whose left side looks at the lamp. The central view sees a little of its right side, which is in the shade,
   // and the left view all of its left side.

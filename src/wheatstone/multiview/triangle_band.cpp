@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 
 namespace wheatstone {
 namespace {
@@ -11,10 +10,6 @@ namespace {
 int ceiling(double number) {
   const int whole = static_cast<int>(number);
   return whole + (number > whole ? 1 : 0);
-}
-int ceiling(float number) {
-  const int whole = static_cast<int>(number);
-  return whole + (number > static_cast<float>(whole) ? 1 : 0);
 }
 
 /// Along an edge, place, disparity and nearness are linear in y.
@@ -49,23 +44,21 @@ std::span<const float> sample_columns(int count) {
 }
 
 TriangleBand::TriangleBand(int width, int samples)
-    : width_(width), samples_(samples), columns_(sample_columns(samples)) {}
-
-void TriangleBand::Line::clear() {
-  x0.clear();
-  disparity0.clear();
-  x1.clear();
-  disparity1.clear();
-  filling.clear();
-}
+    : width_(width),
+      samples_(samples),
+      stride_((static_cast<std::size_t>(width) + block - 1) / block * block),
+      columns_(sample_columns(samples)) {}
 
 void TriangleBand::begin(int first_row, int end_row) {
   first_row_ = first_row;
   end_row_ = end_row;
   const auto lines = static_cast<std::size_t>(end_row - first_row) * static_cast<std::size_t>(samples_);
   lines_.resize(std::max(lines, lines_.size()));
-  for (Line& line : lines_) line.clear();
-  nearest_.resize(lines * static_cast<std::size_t>(width_));
+  for (CrossedLine& line : lines_) {
+    line.edges.clear();
+    line.between.clear();
+  }
+  nearest_.resize(lines * stride_);
   shown_.resize(nearest_.size());
 }
 
@@ -85,68 +78,11 @@ void TriangleBand::add(const ScreenTriangle& triangle, std::uint32_t index, bool
     const TriangleEdge short_edge(triangle, nearness, upper, upper + 1);
     for (int number = from; number < to; ++number) {
       const double y = (number + 0.5) / samples;
-      Line& line = lines_[static_cast<std::size_t>(number - begin)];
-      line.x0.push_back(long_edge.x(y));
-      line.disparity0.push_back(long_edge.disparity(y));
-      line.x1.push_back(short_edge.x(y));
-      line.disparity1.push_back(short_edge.disparity(y));
-      line.filling.push_back({long_edge.nearness(y), short_edge.nearness(y), index});
+      CrossedLine& line = lines_[static_cast<std::size_t>(number - begin)];
+      line.edges.push_back({long_edge.x(y), long_edge.disparity(y), short_edge.x(y), short_edge.disparity(y)});
+      line.between.push_back({long_edge.nearness(y), short_edge.nearness(y), index});
     }
   }
-}
-
-void TriangleBand::show_line(const Line& line, float column, float view, std::span<float> nearest,
-                             std::span<std::uint32_t> shown) {
-  constexpr std::size_t at_once = 256;
-  std::array<int, at_once> at0, at1, crossed;
-  const std::size_t count = line.filling.size();
-  for (std::size_t first = 0; first < count; first += at_once) {
-    const std::size_t some = std::min(at_once, count - first);
-    // Most triangles that are smaller than the distance of samples lie between two of them.
-    const float *x0 = line.x0.data() + first, *x1 = line.x1.data() + first;
-    const float *disparity0 = line.disparity0.data() + first, *disparity1 = line.disparity1.data() + first;
-    for (std::size_t i = 0; i < some; ++i) {
-      at0[i] = ceiling(x0[i] - view * disparity0[i] - column);
-      at1[i] = ceiling(x1[i] - view * disparity1[i] - column);
-    }
-    std::size_t crossings = 0;
-    for (std::size_t i = 0; i < some; ++i) {
-      crossed[crossings] = static_cast<int>(i);
-      crossings += at0[i] != at1[i] ? 1 : 0;
-    }
-    for (std::size_t n = 0; n < crossings; ++n) {
-      const auto i = static_cast<std::size_t>(crossed[n]);
-      float left = x0[i] - view * disparity0[i], right = x1[i] - view * disparity1[i];
-      const Line::Filling& filling = line.filling[first + i];
-      float near_left = filling.nearness0, near_right = filling.nearness1;
-      const int begin = std::max(std::min(at0[i], at1[i]), 0), end = std::min(std::max(at0[i], at1[i]), width_);
-      if (right < left) {
-        std::swap(left, right);
-        std::swap(near_left, near_right);
-      }
-      // In a narrower part, the slope would be lost in rounding errors.
-      constexpr float narrow_px = 1.f / 64;
-      const bool is_narrow = right - left < narrow_px;
-      const float by_x = is_narrow ? 0 : (near_right - near_left) / (right - left);
-      const float start = is_narrow ? (near_left + near_right) / 2 : near_left + (column - left) * by_x;
-      for (int c = begin; c < end; ++c) {
-        const float near = start + static_cast<float>(c) * by_x;
-        const auto at = static_cast<std::size_t>(c);
-        const bool is_nearest = near > nearest[at];
-        nearest[at] = is_nearest ? near : nearest[at];
-        shown[at] = is_nearest ? filling.triangle : shown[at];
-      }
-    }
-  }
-}
-
-void TriangleBand::show(float view) {
-  std::ranges::fill(nearest_, -std::numeric_limits<float>::infinity());
-  std::ranges::fill(shown_, nothing);
-  const auto width = static_cast<std::size_t>(width_);
-  for (std::size_t line = 0; line * width < nearest_.size(); ++line)
-    show_line(lines_[line], columns_[line % static_cast<std::size_t>(samples_)], view,
-              std::span(nearest_).subspan(line * width, width), std::span(shown_).subspan(line * width, width));
 }
 
 }  // namespace wheatstone

@@ -12,12 +12,26 @@ namespace wheatstone {
 /// from the left one. Rotated grids, as graphics processors have them.
 std::span<const float> sample_columns(int count);
 
+/// The triangles that cross a line of samples. A line crosses a triangle between two of its edges, whose places and
+/// disparities on the line are the same for all views.
+struct CrossedLine {
+  struct Edges {
+    float x0, disparity0, x1, disparity1;  ///< places in the central view
+  };
+  struct Between {
+    float nearness0, nearness1;  ///< at the two edges
+    std::uint32_t triangle;
+  };
+  std::vector<Edges> edges;
+  std::vector<Between> between;
+};
+
 /// Some rows of pixels, of which each has a line of samples for each sample of a pixel, and the triangles that cross
-/// these lines. A line crosses a triangle between two of its edges, whose places and disparities on the line are the
-/// same for all views: a view costs two products and what lies between them.
+/// these lines: a view costs two products and what lies between the edges.
 class TriangleBand {
  public:
   static constexpr std::uint32_t nothing = ~std::uint32_t{0};
+  static constexpr std::size_t block = 16;  ///< the most samples of a line that are filled at a time
 
   TriangleBand(int width, int samples);
 
@@ -36,28 +50,17 @@ class TriangleBand {
   std::span<const std::uint32_t> line(int row, int sample) const {
     const auto line = static_cast<std::size_t>(row - first_row_) * static_cast<std::size_t>(samples_) +
                       static_cast<std::size_t>(sample);
-    return std::span(shown_).subspan(line * static_cast<std::size_t>(width_), static_cast<std::size_t>(width_));
+    return std::span(shown_).subspan(line * stride_, static_cast<std::size_t>(width_));
   }
   int samples() const { return samples_; }
   int width() const { return width_; }
 
  private:
-  /// The crossings of one line: places of the two edges in the central view, and their disparities.
-  struct Line {
-    std::vector<float> x0, disparity0, x1, disparity1;
-    struct Filling {
-      float nearness0, nearness1;  ///< at the two edges
-      std::uint32_t triangle;
-    };
-    std::vector<Filling> filling;
-    void clear();
-  };
-  void show_line(const Line& line, float column, float view, std::span<float> nearest, std::span<std::uint32_t> shown);
-
   int width_, samples_;
+  std::size_t stride_;  ///< of lines: whole blocks
   std::span<const float> columns_;
   int first_row_ = 0, end_row_ = 0;
-  std::vector<Line> lines_;
+  std::vector<CrossedLine> lines_;
   std::vector<float> nearest_;
   std::vector<std::uint32_t> shown_;
 };
