@@ -19,7 +19,7 @@
 #include <utility>
 
 #include "wheatstone/models/model_folder_internal.h"
-#include "wheatstone/models/moved_text_internal.h"
+#include "wheatstone/models/moved_vertices_internal.h"
 #include "wheatstone/models/raw_model_internal.h"
 
 namespace wheatstone {
@@ -181,9 +181,9 @@ void keep_readers_of(const std::string& format, Assimp::Importer& importer) {
 
 void import_model(const std::string& file, const std::string& format, RawModel& model) {
   std::string bytes = bytes_of(file);
-  // The importer keeps coordinates in single precision.
   std::array<double, 3> moved_by{};
-  if (format == "obj") moved_by = move_to_origin(bytes);
+  if (format == "obj") moved_by = move_obj_to_origin(bytes);
+  if (format == "ply") moved_by = move_ply_to_origin(bytes);
   const std::string shown_as = "model." + format;
   Assimp::Importer importer;
   keep_readers_of(format, importer);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
@@ -156,6 +157,46 @@ TEST_F(ReadModelTest, CoordinatesFarFromTheOriginKeepTheirMillimetres) {
   EXPECT_NEAR(bounds.least[0], 4500000.001, 1e-6);
   EXPECT_NEAR(bounds.size()[0], 0.001, 1e-6);
   EXPECT_NEAR(bounds.size()[1], 0.003, 1e-6);
+}
+
+/// A PLY file of one triangle far from the origin, whose vertices have their colour before their coordinates.
+std::string far_ply(const std::string& format) {
+  std::string bytes = "ply\nformat " + format +
+                      " 1.0\nelement vertex 3\nproperty uchar red\nproperty double x\nproperty double y\nproperty "
+                      "double z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n";
+  if (format == "ascii")
+    return bytes + "9 4500000.001 100 5400000\n9 4500000.002 100 5400000\n9 4500000.001 100.003 5400000.5\n3 0 1 2\n";
+  const bool is_swapped = format == "binary_big_endian";
+  const auto put = [&](auto number) {
+    std::string of_number;
+    append(of_number, number);
+    if (is_swapped) std::ranges::reverse(of_number);
+    bytes += of_number;
+  };
+  for (const std::array<double, 3>& at :
+       {std::array{4500000.001, 100., 5400000.}, std::array{4500000.002, 100., 5400000.},
+        std::array{4500000.001, 100.003, 5400000.5}}) {
+    put(std::uint8_t{9});
+    for (const double coordinate : at) put(coordinate);
+  }
+  put(std::uint8_t{3});
+  for (const std::int32_t vertex : {0, 1, 2}) put(vertex);
+  return bytes;
+}
+
+TEST_F(ReadModelTest, PlyCoordinatesFarFromTheOriginKeepTheirMillimetres) {
+  for (const char* format : {"ascii", "binary_little_endian", "binary_big_endian"}) {
+    const ModelBounds bounds = bounds_of(read_model(file("a.ply", far_ply(format))).model);
+    EXPECT_NEAR(bounds.least[0], 4500000.001, 1e-6) << format;
+    EXPECT_NEAR(bounds.size()[0], 0.001, 1e-6) << format;
+    EXPECT_NEAR(bounds.size()[1], 0.003, 1e-6) << format;
+    EXPECT_NEAR(bounds.least[2], 5400000, 1e-6) << format;
+  }
+  std::string damaged = far_ply("ascii");
+  damaged.replace(damaged.find("4500000.002"), 11, "nan");
+  expect_refused("nan.ply", damaged, "nan");
+  const std::string binary = far_ply("binary_little_endian");
+  expect_refused("cut.ply", binary.substr(0, binary.size() - 40), "cut.ply");
 }
 
 TEST_F(ReadModelTest, DegenerateTrianglesAreLeftOutAndCounted) {

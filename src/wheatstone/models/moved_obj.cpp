@@ -3,11 +3,10 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <string_view>
 
-#include "wheatstone/models/moved_text_internal.h"
+#include "wheatstone/models/moved_vertices_internal.h"
 
 namespace wheatstone {
 namespace {
@@ -45,27 +44,13 @@ void for_each_line(std::string_view text, Visit&& visit) {
 
 }  // namespace
 
-std::array<double, 3> move_to_origin(std::string& obj) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  std::array<double, 3> least{infinity, infinity, infinity}, most{-infinity, -infinity, -infinity};
+std::array<double, 3> move_obj_to_origin(std::string& obj) {
+  VertexBox box;
   for_each_line(obj, [&](std::size_t begin, std::size_t /*end*/) {
-    const std::optional<VertexLine> vertex = vertex_at(obj, begin);
-    for (std::size_t axis = 0; vertex && axis < 3; ++axis) {
-      least[axis] = std::min(least[axis], vertex->position[axis]);
-      most[axis] = std::max(most[axis], vertex->position[axis]);
-    }
+    if (const std::optional<VertexLine> vertex = vertex_at(obj, begin)) box.add(vertex->position);
   });
-  std::array<double, 3> middle{};
-  double farthest = 0, size = 0;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    if (!(least[axis] <= most[axis])) return {};
-    farthest = std::max({farthest, std::abs(least[axis]), std::abs(most[axis])});
-    size = std::max(size, most[axis] - least[axis]);
-    middle[axis] = least[axis] / 2 + most[axis] / 2;
-  }
-  // Nearer to 0, single precision tells a hundred-thousandth of the size apart.
-  constexpr double far_in_sizes = 100;
-  if (farthest <= far_in_sizes * size) return {};
+  const std::array<double, 3> middle = box.middle_if_far();
+  if (middle == std::array<double, 3>{}) return {};
   std::string moved;
   moved.reserve(obj.size());
   for_each_line(obj, [&](std::size_t begin, std::size_t end) {
