@@ -132,8 +132,7 @@ HWY_EXPORT(show_crossed_line);
 void TriangleBand::show(float view) {
   std::ranges::fill(nearest_, -std::numeric_limits<float>::infinity());
   std::ranges::fill(shown_, nothing);
-  const auto lines = static_cast<std::size_t>((end_row_ - first_row_) * samples_);
-  for (std::size_t line = 0; line < lines; ++line) {
+  for (std::size_t line = 0; line * stride_ < nearest_.size(); ++line) {
     const float column = columns_[line % static_cast<std::size_t>(samples_)];
     HWY_DYNAMIC_DISPATCH(show_crossed_line)
     (lines_[line], column, view, width_, nearest_.data() + line * stride_, shown_.data() + line * stride_);
