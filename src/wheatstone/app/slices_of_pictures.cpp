@@ -42,13 +42,13 @@ Planes planes_for(const Surfaces& surfaces) {
 /// The farthest plane in which a pixel of a run must lie so that its surface stays closed: that of what it goes on to
 /// within so many pixels as planes move apart between one plane and the next.
 int last_plane(std::span<const float> run, std::size_t at, const Planes& planes) {
-  constexpr int reach = 3;
+  constexpr std::size_t reach = 3;
   constexpr float goes_on_px = 2;  // from one pixel to the next
   float farthest = run[at];
   for (const int side : {-1, 1}) {
     float last = run[at];
-    for (int i = 1; i <= reach; ++i) {
-      const auto beside = static_cast<std::size_t>(static_cast<int>(at) + side * i);
+    for (std::size_t i = 1; i <= reach; ++i) {
+      const std::size_t beside = side < 0 ? at - i : at + i;  // before the first, it is larger than any
       if (beside >= run.size() || std::abs(run[beside] - last) > std::max(goes_on_px, planes.step_px)) break;
       last = run[beside];
       farthest = std::min(farthest, last);

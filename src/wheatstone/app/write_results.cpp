@@ -9,6 +9,7 @@
 #include <cmath>
 #include <functional>
 #include <mutex>
+#include <span>
 
 #include "wheatstone/depth/convergence.h"
 #include "wheatstone/display/anaglyph.h"
@@ -32,7 +33,7 @@ struct GalleryPicture {
   std::string_view caption;
 };
 
-constexpr auto pictures = std::to_array<GalleryPicture>({
+constexpr auto gallery_pictures = std::to_array<GalleryPicture>({
     {"left_photograph", "Photograph, left eye"},
     {"right_photograph", "Photograph, right eye"},
     {"left", "Painting, left eye"},
@@ -56,7 +57,7 @@ constexpr std::string_view gallery_style = R"(
 /// `format` is the ending of the pictures that are painted.
 std::string gallery_html(std::string_view format, std::string_view report_json) {
   std::string page = html_head(gallery_title, gallery_style) + fmt::format("<h1>{}</h1>\n<main>\n", gallery_title);
-  for (const GalleryPicture& picture : pictures) {
+  for (const GalleryPicture& picture : gallery_pictures) {
     const bool has_ending = picture.file.find('.') != std::string_view::npos;
     const std::string file = has_ending ? std::string(picture.file) : fmt::format("{}.{}", picture.file, format);
     page +=
@@ -85,6 +86,32 @@ std::vector<std::string> write_flat(OutputFolder& folder, const PaintingReport& 
   return result_names({.flat = true, .svg = options.svg, .format = options.format});
 }
 
+/// A file of the results.
+struct Output {
+  std::string name;
+  std::function<void(const std::filesystem::path&)> write;
+};
+
+/// Writes all files of a result of so many pixels.
+void write_all(std::span<const Output> outputs, OutputFolder& folder, std::size_t pixels, const Progress& progress) {
+  std::mutex reporting;
+  std::size_t written = 0;
+  report(progress, "writing", 0);
+  // Large files are encoded in parallel blocks: all of them at once would only take more memory.
+  constexpr std::size_t large_pixels = 8'000'000;
+  const std::size_t at_once = pixels < large_pixels ? 1 : outputs.size();
+  tbb::parallel_for(
+      tbb::blocked_range(std::size_t{0}, outputs.size(), at_once),
+      [&](const auto& some) {
+        for (std::size_t i = some.begin(); i < some.end(); ++i) {
+          outputs[i].write(folder.file(outputs[i].name));
+          const std::scoped_lock lock(reporting);
+          report(progress, "writing", static_cast<double>(++written) / static_cast<double>(outputs.size()));
+        }
+      },
+      tbb::simple_partitioner());
+}
+
 }  // namespace
 
 std::vector<std::string> result_names(const ResultOptions& options) {
@@ -110,10 +137,6 @@ std::vector<std::string> result_names(const ResultOptions& options) {
 std::vector<std::string> write_results(OutputFolder& folder, const StereoPair& photographs, const PaintingReport& told,
                                        const ResultOptions& options, const Progress& progress) {
   using Path = std::filesystem::path;
-  struct Output {
-    std::string name;
-    std::function<void(const Path&)> write;
-  };
   const PaintedPhotograph& result = told.painted;
   const StereoPair& pictures = result.painted.pictures;
   const StereoGeometry& geometry = result.geometry;
@@ -154,22 +177,7 @@ std::vector<std::string> write_results(OutputFolder& folder, const StereoPair& p
                        }});
   }
 
-  std::mutex reporting;
-  std::size_t written = 0;
-  report(progress, "writing", 0);
-  // Large files are encoded in parallel blocks: all of them at once would only take more memory.
-  constexpr std::size_t large_pixels = 8'000'000;
-  const std::size_t at_once = pictures.left.pixels().size() < large_pixels ? 1 : outputs.size();
-  tbb::parallel_for(
-      tbb::blocked_range(std::size_t{0}, outputs.size(), at_once),
-      [&](const auto& some) {
-        for (std::size_t i = some.begin(); i < some.end(); ++i) {
-          outputs[i].write(folder.file(outputs[i].name));
-          const std::scoped_lock lock(reporting);
-          report(progress, "writing", static_cast<double>(++written) / static_cast<double>(outputs.size()));
-        }
-      },
-      tbb::simple_partitioner());
+  write_all(outputs, folder, pictures.left.pixels().size(), progress);
   folder.commit();
   std::vector<std::string> names;
   for (const Output& output : outputs) names.push_back(output.name);
