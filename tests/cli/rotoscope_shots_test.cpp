@@ -111,6 +111,12 @@ TEST(RotoscopeShots, ThatAreWrongAreOneLineThatNamesThePlace) {
   expect(first + "zero-parallax = 2\n", {"-o", "m_%d.wst"}, "shot 1, line 3: 'zero-parallax' has no effect on marks");
   expect(first + "depth-budget = 0.1\n", {"--display", "looking-glass-portrait"},
          "shot 1, line 3: 'depth-budget' has no effect with --display");
+  const std::string key = first + "[[shot.key]]\nat = 1\n";
+  expect(key + "grid = 2.0\n", {}, "shot 1, key 1, line 5: 'grid' does not move, expected at and one of depth-budget,");
+  expect(key + "opacity = 0.5\n[[shot.key]]\nat = 9\nopacity = 0.8\n", {},
+         "shot 1, key 2, line 6: lies beyond the end of the film, which has 8 frames");
+  expect(key + "zero-parallax = 2\n", {"--display", "looking-glass-portrait"},
+         "shot 1, key 1, line 5: 'zero-parallax' has no effect in a key with --display; a shot is planned for one");
   EXPECT_FALSE(fs::exists(folder / "painted.mp4"));
 }
 

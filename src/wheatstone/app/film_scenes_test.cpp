@@ -8,13 +8,11 @@
 
 #include <optional>
 
-#include "scenes/moving_picture.h"
+#include "scenes/film_of_scenes.h"
 #include "thread_ranks.h"
 #include "throws_error.h"
 #include "wheatstone/app/rotoscope_film.h"
 #include "wheatstone/app/rotoscope_state_file_internal.h"
-#include "wheatstone/stereo/packed_pair.h"
-#include "wheatstone/synthetic/synthetic_film.h"
 #include "wheatstone/video/work_folder.h"
 
 namespace wheatstone::film_scenes_test {
@@ -23,28 +21,12 @@ namespace fs = std::filesystem;
 
 constexpr int film_frames = 9;
 
-/// Of three scenes: frames 0 to 2, 3 to 6, 7 and 8.
-StereoPair eyes_of_frame(int frame) {
-  SyntheticFilmOptions options{.still = {.width = 96, .height = 64, .samples_a_side = 1}, .frames = 12};
-  options.cut = 0;
-  StereoPair eyes = make_synthetic_film_frame(options, frame).pictures;
-  if (frame < 3 || frame >= 7) return eyes;
-  for (Image<Rgb8>* picture : {&eyes.left, &eyes.right})
-    for (Rgb8& pixel : picture->pixels())
-      pixel = {static_cast<std::uint8_t>(255 - pixel.b), pixel.r, static_cast<std::uint8_t>(255 - pixel.g)};
-  return eyes;
-}
-
+/// Three scenes: frames 0 to 2, 3 to 6, 7 and 8.
 class SharedFilm : public testing::Test {
  protected:
   static void SetUpTestSuite() {
     folder_ = std::make_unique<TemporaryFolder>();
-    FilmWriter writer(file("film.mkv"), {.preset = "ultrafast", .layout = StereoLayout::left_right});
-    for (int i = 0; i < film_frames; ++i) {
-      const StereoPair eyes = eyes_of_frame(i);
-      writer.write({put_together(eyes.left, eyes.right, StereoLayout::left_right), i, {1, 25}, 1});
-    }
-    writer.finish();
+    make_film_of_scenes(file("film.mkv"), film_frames, {3, 7});
   }
   static void TearDownTestSuite() { folder_.reset(); }
   static fs::path file(const std::string& name) { return *folder_ / name; }
@@ -90,14 +72,7 @@ TEST_F(SharedFilm, HasTheScenesThatItIsPaintedIn) {
 
 TEST(FilmScenes, CutsAreToldWhereverTheyLieInTheRunsOfRanks) {
   const TemporaryFolder folder;
-  FilmWriter writer(folder / "film.mkv", {.preset = "ultrafast"});
-  for (int i = 0; i < 40; ++i) {
-    Frame frame = moving_frame(64, 48, i);
-    if (i >= 16 && i < 33)
-      for (Rgb8& pixel : frame.picture.pixels()) pixel = {pixel.g, 255, static_cast<std::uint8_t>(255 - pixel.r)};
-    writer.write(frame);
-  }
-  writer.finish();
+  make_mono_film_of_scenes(folder / "film.mkv", 40, {16, 33});
   for (const int count : {1, 2, 4}) {
     as_ranks(count, [&](const Ranks& ranks) {
       StereoFilmReader film = open_stereo_film(folder / "film.mkv", StereoLayout::mono);
@@ -130,10 +105,10 @@ TEST(FilmScenes, ArePaintedAlikeWhateverCameBefore) {
     options.depth_budget = 0.03f;
     RotoscopeState after_others, alone;
     for (int frame = 0; frame < 5; ++frame) {
-      const RotoscopedFrame a = rotoscope_frame(eyes_of_frame(frame), options, after_others);
+      const RotoscopedFrame a = rotoscope_frame(eyes_of_scenes(frame, {3, 7}), options, after_others);
       if (frame < 3) continue;
       EXPECT_EQ(a.scene_begins, frame == 3);
-      const RotoscopedFrame b = rotoscope_frame(eyes_of_frame(frame), options, alone);
+      const RotoscopedFrame b = rotoscope_frame(eyes_of_scenes(frame, {3, 7}), options, alone);
       EXPECT_EQ(a.painting, b.painting) << style << frame;
       EXPECT_EQ(std::get<StereoPair>(a.pictures).right, std::get<StereoPair>(b.pictures).right) << style << frame;
     }

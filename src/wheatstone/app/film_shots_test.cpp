@@ -8,13 +8,11 @@
 
 #include <memory>
 
-#include "scenes/moving_picture.h"
+#include "scenes/film_of_scenes.h"
 #include "thread_ranks.h"
 #include "throws_error.h"
 #include "wheatstone/app/film_plan.h"
 #include "wheatstone/app/rotoscope_film.h"
-#include "wheatstone/stereo/packed_pair.h"
-#include "wheatstone/synthetic/synthetic_film.h"
 
 namespace wheatstone::film_shots_test {
 
@@ -22,35 +20,30 @@ namespace fs = std::filesystem;
 
 constexpr int film_frames = 8;
 
-/// Cuts are found before the frames 3 and 6.
-StereoPair eyes_of_frame(int frame) {
-  SyntheticFilmOptions options{.still = {.width = 96, .height = 64, .samples_a_side = 1}, .frames = 12};
-  options.cut = 0;
-  StereoPair eyes = make_synthetic_film_frame(options, frame).pictures;
-  if (frame < 3 || frame >= 6) return eyes;
-  for (Image<Rgb8>* picture : {&eyes.left, &eyes.right})
-    for (Rgb8& pixel : picture->pixels())
-      pixel = {static_cast<std::uint8_t>(255 - pixel.b), pixel.r, static_cast<std::uint8_t>(255 - pixel.g)};
-  return eyes;
-}
+constexpr OtherScene other_scene{3, 6};
 
-/// One ends where no cut is found; another goes on over one.
+StereoPair eyes_of_frame(int frame) { return eyes_of_scenes(frame, other_scene); }
+
+/// When a frame is shown.
+double time_s(std::int64_t frame) { return static_cast<double>(frame) / 25; }
+
+/// One ends where no cut is found; another goes on over one, and its numbers move.
 std::vector<FilmShot> shots_of_film() {
-  return {{0, style_by_name("impressionist"), 0.03f, {}},
-          {2, style_by_name("posterise"), {}, {}},
-          {3, style_by_name("expressionist"), 0.01f, 2.f}};
+  return {
+      {0, style_by_name("impressionist"), 0.03f, {}},
+      {2, style_by_name("posterise"), {}, {}},
+      {3,
+       style_by_name("expressionist"),
+       0.01f,
+       2.f,
+       {{"zero-parallax", {{time_s(3), 2}, {time_s(6), -1}}}, {"opacity", {{time_s(4), 0.9f}, {time_s(7), 0.3f}}}}}};
 }
 
 class FilmOfShots : public testing::Test {
  protected:
   static void SetUpTestSuite() {
     folder_ = std::make_unique<TemporaryFolder>();
-    FilmWriter writer(file("film.mkv"), {.preset = "ultrafast", .layout = StereoLayout::left_right});
-    for (int i = 0; i < film_frames; ++i) {
-      const StereoPair eyes = eyes_of_frame(i);
-      writer.write({put_together(eyes.left, eyes.right, StereoLayout::left_right), i, {1, 25}, 1});
-    }
-    writer.finish();
+    make_film_of_scenes(file("film.mkv"), film_frames, other_scene);
   }
   static void TearDownTestSuite() { folder_.reset(); }
   static fs::path file(const std::string& name) { return *folder_ / name; }
@@ -127,9 +120,10 @@ TEST_F(FilmOfShots, PaintsEachAsAlone) {
         this_one = {shot};
         this_one[0].begin = 0;
       }
-    const RotoscopedFrame a = rotoscope_frame(eyes_of_frame(frame), options_of_frame({}, shots, film.frames), film);
+    const RotoscopedFrame a =
+        rotoscope_frame(eyes_of_frame(frame), options_of_frame({}, shots, film.frames, time_s(frame)), film);
     const RotoscopedFrame b =
-        rotoscope_frame(eyes_of_frame(frame), options_of_frame({}, this_one, alone.frames), alone);
+        rotoscope_frame(eyes_of_frame(frame), options_of_frame({}, this_one, alone.frames, time_s(frame)), alone);
     EXPECT_EQ(a.scene_begins, b.scene_begins) << frame;
     EXPECT_EQ(a.painting, b.painting) << frame;
     EXPECT_EQ(std::get<StereoPair>(a.pictures).left, std::get<StereoPair>(b.pictures).left) << frame;
@@ -157,7 +151,7 @@ TEST_F(FilmOfShots, IsNotGoneOnWithByOthers) {
   expect_error(ErrorKind::interrupted, "the first 4 frames are kept in ",
                [&] { paint(file("begun.mkv"), options, stop_after_five); });
   options.resume = true;
-  options.shots[2].zero_parallax_px = 1;
+  options.shots[2].moving[1].keys[1].value = 0.4f;
   expect_error(ErrorKind::wrong_usage, "begun.mkv", [&] { paint(file("begun.mkv"), options); });
   options.shots = shots_of_film();
   options.on_twos = true;
@@ -247,6 +241,80 @@ TEST_F(FilmOfShots, PutsTheDisparityThatIsAskedForOnTheScreen) {
   EXPECT_EQ(shift_with({}), 6);
   EXPECT_EQ(shift_with(6.f), 0);
   EXPECT_EQ(shift_with(2.f), 4);
+}
+
+TEST(MovingParameters, GoLinearlyInTimeFromKeyToKey) {
+  FilmShot shot{.style = style_by_name("oil")};
+  shot.moving = {{"zero-parallax", {{2, 8}, {4, -2}, {4.5, 0}}}, {"dry", {{3, 0.2f}, {5, 0.6f}}}};
+  const auto at = [&](double seconds) { return options_of_frame({}, std::span(&shot, 1), 1, seconds); };
+  const auto zero_parallax = [&](double seconds) { return at(seconds).zero_parallax_px; };
+  EXPECT_EQ(zero_parallax(0), 8) << "before the first key";
+  EXPECT_EQ(zero_parallax(2), 8);
+  EXPECT_EQ(zero_parallax(2.5), 5.5f);
+  EXPECT_EQ(zero_parallax(4), -2);
+  EXPECT_EQ(zero_parallax(4.25), -1);
+  EXPECT_EQ(zero_parallax(60), 0) << "after the last key";
+  EXPECT_FLOAT_EQ(at(3.5).style.brush.dry, 0.3f);
+  Style other = at(3.5).style;
+  other.brush.dry = shot.style.brush.dry;
+  EXPECT_EQ(other, shot.style) << "nothing else moves";
+}
+
+/// Frames of a shot whose number `name` goes from `first` to `last` in eight frames of a plane at a disparity of 6.
+std::vector<RotoscopedFrame> moving_frames(const std::string& name, float first, float last, Style style) {
+  const StereoPair eyes{moving_picture(160, 96, 0), moving_picture(160, 96, 0, 6)};
+  const std::vector<FilmShot> shots{{0, std::move(style), {}, {}, {{name, {{time_s(1), first}, {time_s(7), last}}}}}};
+  RotoscopeState state;
+  std::vector<RotoscopedFrame> frames;
+  for (int frame = 0; frame < 8; ++frame)
+    frames.push_back(rotoscope_frame(eyes, options_of_frame({}, shots, frame, time_s(frame)), state));
+  return frames;
+}
+
+/// The share of the way from the first key to the last that a frame has come.
+float way(std::size_t frame) { return static_cast<float>(std::max<std::size_t>(frame, 1) - 1) / 6; }
+
+TEST(MovingParameters, TheScreenPlaneTravelsThroughTheScene) {
+  const std::vector<RotoscopedFrame> frames = moving_frames("zero-parallax", -2, 4, style_by_name("expressionist"));
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const auto& eyes = std::get<StereoPair>(frames[i].pictures);
+    EXPECT_EQ(shift_between(eyes.left, eyes.right), std::lround(6 - (-2 + 6 * way(i)))) << i;
+    EXPECT_TRUE(frames[i].showing.backgrounds.empty()) << "where the eyes are the film's own, too: " << i;
+  }
+}
+
+TEST(MovingParameters, EyesComeNearerAsTheDepthBudgetFalls) {
+  RotoscopeState state;
+  const std::vector<FilmShot> shots{
+      {0, style_by_name("posterise"), {}, {}, {{"depth-budget", {{time_s(0), 0.04f}, {time_s(7), 0.02f}}}}}};
+  double last = 1;
+  for (int frame = 0; frame < 8; ++frame) {
+    const RotoscopeOptions options = options_of_frame({}, shots, frame, time_s(frame));
+    const PlannedFilmFrame planned = plan_film_frame(eyes_of_scenes(0, {}), options, state);
+    const float budget = 0.04f - 0.02f * static_cast<float>(frame) / 7;
+    EXPECT_EQ(planned.eyes.separation, comfortable_eyes({96, 64}, state.depth.ends, budget).separation) << frame;
+    EXPECT_LT(planned.eyes.separation, last) << frame;
+    last = planned.eyes.separation;
+  }
+}
+
+TEST(MovingParameters, AllStrokesTakeTheOpacityAndTheBrushAndNonePops) {
+  const std::vector<RotoscopedFrame> thin = moving_frames("opacity", 1, 0.4f, style_by_name("impressionist"));
+  const std::vector<RotoscopedFrame> dry = moving_frames("dry", 0, 0.6f, style_by_name("dual"));
+  for (std::size_t i = 0; i < thin.size(); ++i) {
+    std::int64_t strokes = 0, as_opaque = 0;
+    for (const Layer& layer : layers_of(thin[i].painting))
+      for (const Stroke& stroke : layer.strokes) {
+        ++strokes;
+        as_opaque += std::abs(stroke.opacity - (1 - 0.6f * way(i))) < 1e-5f ? 1 : 0;
+      }
+    EXPECT_GT(as_opaque, strokes * 9 / 10) << i;  // the others fade in or out
+    EXPECT_NEAR(std::get<StrokePainting>(dry[i].painting.marks).brush.dry, 0.6f * way(i), 1e-6f);
+    for (const RotoscopedFrame* frame : {&thin[i], &dry[i]}) {
+      EXPECT_EQ(frame->changes.popped, 0) << i;
+      EXPECT_GE(frame->changes.survived, frame->changes.whole * 9 / 10) << i;
+    }
+  }
 }
 
 }  // namespace wheatstone::film_shots_test

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "scenes/moving_picture.h"
+#include "scenes/film_of_scenes.h"
 #include "throws_error.h"
 #include "wheatstone/pictures/read_image.h"
 
@@ -13,16 +13,7 @@ namespace fs = std::filesystem;
 using testing::HasSubstr;
 
 /// Twelve frames at 25 a second; frames 5 to 8 are another shot.
-void make_film_of_three_shots(const fs::path& path) {
-  FilmWriter writer(path, {.preset = "ultrafast"});
-  for (int i = 0; i < 12; ++i) {
-    Frame frame = moving_frame(64, 48, i);
-    if (i >= 5 && i < 9)
-      for (Rgb8& pixel : frame.picture.pixels()) pixel = {pixel.g, 255, static_cast<std::uint8_t>(255 - pixel.r)};
-    writer.write(frame);
-  }
-  writer.finish();
-}
+void make_film_of_three_shots(const fs::path& path) { make_mono_film_of_scenes(path, 12, {5, 9}); }
 
 TEST(ListShots, NamesEachShotAndShowsItsMiddleFrame) {
   const TemporaryFolder folder;

@@ -11,38 +11,59 @@
 namespace wheatstone {
 namespace {
 
-/// Where a shot begins in a film: nothing before it is found.
+/// A frame that a shots file names, in a film: nothing before it is found.
 struct Place {
   std::optional<std::int64_t> frame;  ///< counted from 1
   std::int64_t pts = 0;
+  double seconds = 0;
 };
 
-/// Whether a shot begins with this frame, if it has not begun before.
-bool begins(const WrittenShot& shot, std::int64_t number, double seconds) {
+/// Where a shot begins, and where its keys lie.
+struct ShotPlace : Place {
+  std::vector<Place> keys;
+};
+
+/// Takes the frame, if it is the first that fits.
+void look(const WrittenFrame& wanted, std::int64_t number, const StereoFrame& frame, Place& place) {
   // Times in shots files are rounded to a millisecond.
   constexpr double mercy_s = 0.0006;
-  if (const auto* frame = std::get_if<std::int64_t>(&shot.begin)) return *frame == number;
-  return std::get<double>(shot.begin) <= seconds + mercy_s;
+  if (place.frame) return;
+  const auto* const wanted_number = std::get_if<std::int64_t>(&wanted);
+  const bool fits =
+      wanted_number != nullptr ? *wanted_number == number : std::get<double>(wanted) <= seconds_of(frame) + mercy_s;
+  if (fits) place = {number, frame.pts, seconds_of(frame)};
 }
 
-/// Goes through a film until all shots have begun, and ended where they say so.
-std::vector<Place> find_places(std::span<const WrittenShot> shots, StereoFilmReader film, const Progress& progress) {
-  std::vector<Place> places(shots.size());
+bool is_found(const ShotPlace& place) {
+  return place.frame && std::ranges::all_of(place.keys, [](const Place& key) { return key.frame.has_value(); });
+}
+
+/// Goes through a film until all shots have begun, and ended where they say so, and all keys have been met.
+std::vector<ShotPlace> find_places(std::span<const WrittenShot> shots, StereoFilmReader film,
+                                   const Progress& progress) {
+  std::vector<ShotPlace> places;
+  for (const WrittenShot& shot : shots) places.push_back({{}, std::vector<Place>(shot.keys.size())});
   std::int64_t last = 1, frames = 0;
   for (const WrittenShot& shot : shots) last = std::max(last, shot.last.value_or(1));
   // One frame more tells whether the film goes on.
   if (shots.back().last) last = std::max(last, *shots.back().last + 1);
-  const auto is_found = [](const Place& place) { return place.frame.has_value(); };
   for (StereoFrame frame; (frames < last || !std::ranges::all_of(places, is_found)) && film.read(frame);) {
     report(progress, "looking for the shots", 0);
     ++frames;
-    for (std::size_t i = 0; i < shots.size(); ++i)
-      if (!places[i].frame && begins(shots[i], frames, seconds_of(frame))) places[i] = {frames, frame.pts};
+    for (std::size_t i = 0; i < shots.size(); ++i) {
+      look(shots[i].begin, frames, frame, places[i]);
+      for (std::size_t key = 0; key < shots[i].keys.size(); ++key)
+        look(shots[i].keys[key].at, frames, frame, places[i].keys[key]);
+    }
   }
   for (std::size_t i = 0; i < shots.size(); ++i) {
     if (!places[i].frame)
       throw Error(ErrorKind::bad_input,
                   fmt::format("{}: begins beyond the end of the film, which has {} frames", shots[i].where, frames));
+    for (std::size_t key = 0; key < shots[i].keys.size(); ++key)
+      if (!places[i].keys[key].frame)
+        throw Error(ErrorKind::bad_input, fmt::format("{}: lies beyond the end of the film, which has {} frames",
+                                                      shots[i].keys[key].where, frames));
     if (shots[i].last.value_or(1) > frames)
       throw Error(ErrorKind::bad_input, fmt::format("{}: ends with frame {}, but the film has {} frames",
                                                     shots[i].where, *shots[i].last, frames));
@@ -55,7 +76,7 @@ std::vector<Place> find_places(std::span<const WrittenShot> shots, StereoFilmRea
 }
 
 /// Every frame must belong to one shot.
-void check_order(std::span<const WrittenShot> shots, std::span<const Place> places) {
+void check_order(std::span<const WrittenShot> shots, std::span<const ShotPlace> places) {
   if (places.front().frame != 1)
     throw Error(ErrorKind::bad_input,
                 fmt::format("{}: begins with frame {}, expected 1, because every frame belongs to "
@@ -80,6 +101,46 @@ void check_order(std::span<const WrittenShot> shots, std::span<const Place> plac
   }
 }
 
+/// Keys must lie in their shot, which ends before `end`, one after the other.
+void check_keys(const WrittenShot& shot, const ShotPlace& place, std::optional<std::int64_t> end) {
+  for (std::size_t i = 0; i < shot.keys.size(); ++i) {
+    const std::int64_t at = *place.keys[i].frame;
+    if (at < *place.frame || (end && at >= *end))
+      throw Error(
+          ErrorKind::bad_input,
+          fmt::format("{}: lies at frame {}, outside its shot, which begins with frame {}{}", shot.keys[i].where, at,
+                      *place.frame, end ? fmt::format(" and ends with frame {}", *end - 1) : ""));
+    if (i > 0 && at <= *place.keys[i - 1].frame)
+      throw Error(ErrorKind::bad_input,
+                  fmt::format("{}: lies at frame {}, expected a later one than {}, where the key before it lies",
+                              shot.keys[i].where, at, *place.keys[i - 1].frame));
+  }
+}
+
+/// The numbers that the keys of a shot give.
+std::vector<MovingParameter> moving_parameters(const WrittenShot& shot, const ShotPlace& place) {
+  std::vector<MovingParameter> moving;
+  for (std::size_t i = 0; i < shot.keys.size(); ++i)
+    for (const WrittenKey::Value& value : shot.keys[i].values) {
+      auto one = std::ranges::find(moving, value.parameter, &MovingParameter::name);
+      if (one == moving.end()) one = moving.insert(one, {std::string(value.parameter), {}});
+      one->keys.push_back({place.keys[i].seconds, value.value});
+    }
+  return moving;
+}
+
+/// The shots as they lie in the whole film.
+std::vector<FilmShot> shots_at(std::span<const WrittenShot> shots, std::span<const ShotPlace> places) {
+  std::vector<FilmShot> placed;
+  for (std::size_t i = 0; i < shots.size(); ++i) {
+    check_keys(shots[i], places[i], i + 1 < shots.size() ? places[i + 1].frame : std::nullopt);
+    FilmShot& shot = placed.emplace_back(shots[i].painted);
+    shot.begin = *places[i].frame - 1;
+    shot.moving = moving_parameters(shots[i], places[i]);
+  }
+  return placed;
+}
+
 }  // namespace
 
 std::vector<FilmShot> place_shots(std::span<const WrittenShot> shots, const FilmFiles& film,
@@ -88,17 +149,12 @@ std::vector<FilmShot> place_shots(std::span<const WrittenShot> shots, const Film
   whole.from_s.reset();
   whole.to_s.reset();
   whole.every = 1;
-  const std::vector<Place> places = find_places(shots, open_film(film, whole), progress);
+  const std::vector<ShotPlace> places = find_places(shots, open_film(film, whole), progress);
   check_order(shots, places);
-  std::vector<FilmShot> placed;
-  if (!reading.from_s && !reading.to_s && reading.every == 1) {
-    for (std::size_t i = 0; i < shots.size(); ++i) {
-      placed.push_back(shots[i].painted);
-      placed.back().begin = *places[i].frame - 1;
-    }
-    return placed;
-  }
+  const std::vector<FilmShot> in_whole = shots_at(shots, places);
+  if (!reading.from_s && !reading.to_s && reading.every == 1) return in_whole;
   // Those of which a frame is read.
+  std::vector<FilmShot> placed;
   StereoFilmReader part = open_film(film, reading);
   std::size_t shot = 0;
   std::int64_t number = 0;
@@ -107,7 +163,7 @@ std::vector<FilmShot> place_shots(std::span<const WrittenShot> shots, const Film
     const std::size_t before = shot;
     while (shot + 1 < shots.size() && places[shot + 1].pts <= frame.pts) ++shot;
     if (number > 0 && shot == before) continue;
-    placed.push_back(shots[shot].painted);
+    placed.push_back(in_whole[shot]);
     placed.back().begin = number;
   }
   return placed;

@@ -233,6 +233,11 @@ FilmDisplay display_of(const RotoscopeOptions& options) {
   return display;
 }
 
+/// Whether the frame is drawn over the pictures of these eyes.
+bool are_own_eyes(const RotoscopeOptions& options, const TwoEyes& eyes) {
+  return !options.display && !options.eyes_move && !are_moved(eyes);
+}
+
 /// Whether the frame is drawn for eyes that its scene's depth decides.
 bool has_own_eyes(const RotoscopeOptions& options) {
   return !options.display && (options.depth_budget || options.zero_parallax_px);
@@ -266,7 +271,7 @@ FrameShowing showing_of(const FrameTask& task, const TwoEyes& eyes, const SceneD
     return {for_display({whole.left.width(), whole.left.height()}, depth, display_of(options), options.device), {}};
   const bool one_eye = whole.right.empty();
   FrameShowing showing{one_eye ? Presentation{.views = {central_view}} : for_two_eyes(eyes), {}};
-  if (!are_moved(eyes) && options.style.background == Background::photograph) {
+  if (are_own_eyes(options, eyes) && options.style.background == Background::photograph) {
     showing.backgrounds.push_back(whole.left);
     if (!one_eye) showing.backgrounds.push_back(whole.right);
   }
@@ -285,8 +290,7 @@ PlannedFrame plan_marks(const FilmFrame& frame, const FrameTask& task, const Two
         at_whole_size(std::move(planned.painting), {task.whole.left.width(), task.whole.left.height()}, style);
     return planned;
   }
-  if (options.display || are_moved(eyes))
-    return plan_frame(frame, style, options.carrying, state.memory, task.progress);
+  if (!are_own_eyes(options, eyes)) return plan_frame(frame, style, options.carrying, state.memory, task.progress);
   return plan_for_eyes(frame, style, options.carrying, state.memory, task.progress, options.device);
 }
 

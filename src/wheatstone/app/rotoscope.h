@@ -50,6 +50,9 @@ struct RotoscopeOptions {
   /// The disparity, in pixels of a frame, that lies on the screen plane, for two eyes and on a display; none: where the
   /// film has it, as far as the depth budget allows, or in the middle of the scene's depth on a display.
   std::optional<float> zero_parallax_px;
+  /// The frames of the scene are drawn for eyes that move: all of them as for other eyes than the film's own, where
+  /// nothing lies behind the paint, so that no frame looks otherwise.
+  bool eyes_move = false;
   std::optional<bool> scene_begins;  ///< with the frame; none: where a cut is found
   bool anew = false;                 ///< every frame as if a scene began: the naive method, to be measured against
 };

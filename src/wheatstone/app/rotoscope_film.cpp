@@ -14,6 +14,7 @@
 #include "wheatstone/error.h"
 #include "wheatstone/files/struct_fields.h"
 #include "wheatstone/marks/painting_file.h"
+#include "wheatstone/video/film_time.h"
 #include "wheatstone/video/segmented_film.h"
 #include "wheatstone/video/work_folder.h"
 
@@ -90,7 +91,7 @@ auto make_frame_of(Make make, StereoFrame& frame, const RotoscopeFilmOptions& op
   if (options.known) known = options.known(state.frames, eyes.left);
   if (known && known->flow && !options.ranks.alone())
     throw Error(ErrorKind::wrong_usage, "frames whose flow is known are painted in one process, not under mpirun");
-  auto made = make(eyes, options_of_frame(options.frames, options.shots, state.frames), state,
+  auto made = make(eyes, options_of_frame(options.frames, options.shots, state.frames, seconds_of(frame)), state,
                    known ? &*known : nullptr, progress);
   frame.left = std::move(eyes.left);
   frame.right = std::move(eyes.right);

@@ -21,9 +21,21 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 5> keys_of_shots{"begin", "last", "style", "depth-budget", "zero-parallax"};
+constexpr std::array<std::string_view, 6> keys_of_shots{"begin",        "last",          "style",
+                                                        "depth-budget", "zero-parallax", "key"};
 
-/// A [[shot]] that is being read.
+/// The rows of an array of tables, each with its name, as "shots.toml: shot 2".
+template <class Read>
+void for_each_table(const toml::array& tables, const std::string& name, std::string_view header, Read read) {
+  for (std::size_t i = 0; i < tables.size(); ++i) {
+    const std::string one = fmt::format("{} {}", name, i + 1);
+    const toml::table* const table = tables[i].as_table();
+    if (table == nullptr) throw Error(ErrorKind::bad_input, fmt::format("{}: is no table, expected {}", one, header));
+    read(*table, one);
+  }
+}
+
+/// A [[shot]] that is being read, or one of its keys.
 class ShotTable {
  public:
   ShotTable(const toml::table& table, std::string shot, const fs::path& folder)
@@ -31,18 +43,74 @@ class ShotTable {
 
   WrittenShot read(const RotoscopeOptions& all, std::span<const UnusedKey> unused) const {
     check_keys(unused);
-    WrittenShot shot{.painted = {.style = style(all.style),
-                                 .depth_budget = all.depth_budget,
-                                 .zero_parallax_px = all.zero_parallax_px},
-                     .where = at(table_)};
-    shot.begin = begin();
+    const RotoscopeOptions own = painted(all);
+    WrittenShot shot{
+        .begin = written_frame("begin", "its first frame"),
+        .painted = {.style = own.style, .depth_budget = own.depth_budget, .zero_parallax_px = own.zero_parallax_px},
+        .where = at(table_)};
     if (const toml::node* last = table_.get("last")) shot.last = frame("last", *last);
-    if (const toml::node* budget = table_.get("depth-budget")) shot.painted.depth_budget = depth_budget(*budget);
-    if (const toml::node* zero = table_.get("zero-parallax")) shot.painted.zero_parallax_px = zero_parallax(*zero);
+    const toml::node* const keys = table_.get("key");
+    if (keys == nullptr) return shot;
+    if (!keys->is_array()) refuse("key", *keys, "[[shot.key]] tables");
+    for_each_table(*keys->as_array(), shot_ + ", key", "[[shot.key]]",
+                   [&](const toml::table& table, const std::string& name) {
+                     shot.keys.push_back(ShotTable(table, name, folder_).read_key(own, table_, unused));
+                   });
     return shot;
   }
 
  private:
+  /// What a key of a shot gives, which `of_shot` and its table have otherwise.
+  WrittenKey read_key(const RotoscopeOptions& of_shot, const toml::table& shot,
+                      std::span<const UnusedKey> unused) const {
+    WrittenKey key{.at = written_frame("at", "a frame of the shot"), .values = {}, .where = at(table_)};
+    for (const auto& [name, node] : table_) {
+      if (name.str() == "at") continue;
+      const MovableParameter* const parameter = movable(name.str(), node, unused);
+      if (shot.contains(name.str()))
+        throw Error(
+            ErrorKind::bad_input,
+            fmt::format("{}: '{}' is also set by the shot; leave it out there, or in its keys", at(node), name.str()));
+      key.values.push_back({parameter->name, 0});
+    }
+    if (key.values.empty())
+      throw Error(ErrorKind::bad_input, fmt::format("{}: gives no number, expected one of {}", at(table_), movables()));
+    const RotoscopeOptions then = painted(of_shot);
+    for (WrittenKey::Value& value : key.values) value.value = find_movable_parameter(value.parameter)->get(then);
+    if (const toml::node* budget = table_.get("depth-budget"); budget != nullptr && !then.depth_budget)
+      refuse("depth-budget", *budget, "a share of the width, which moves; the whole depth is \"100%\"");
+    return key;
+  }
+
+  /// `all` with what the table sets.
+  RotoscopeOptions painted(RotoscopeOptions all) const {
+    all.style = style(all.style);
+    if (const toml::node* budget = table_.get("depth-budget")) all.depth_budget = depth_budget(*budget);
+    if (const toml::node* zero = table_.get("zero-parallax")) all.zero_parallax_px = zero_parallax(*zero);
+    return all;
+  }
+
+  static std::string movables() {
+    std::vector<std::string_view> names;
+    for (const MovableParameter& parameter : movable_parameters()) names.push_back(parameter.name);
+    return fmt::format("{}", fmt::join(names, ", "));
+  }
+
+  const MovableParameter* movable(std::string_view name, const toml::node& node,
+                                  std::span<const UnusedKey> unused) const {
+    const bool is_known =
+        find_parameter(name) != nullptr || std::ranges::find(keys_of_shots, name) != keys_of_shots.end();
+    const MovableParameter* const parameter = find_movable_parameter(name);
+    if (parameter == nullptr)
+      throw Error(ErrorKind::bad_input, fmt::format("{}: {}, expected at and one of {}", at(node),
+                                                    is_known ? fmt::format("'{}' does not move", name)
+                                                             : fmt::format("unknown key '{}'", name),
+                                                    movables()));
+    if (const auto no_use = std::ranges::find(unused, name, &UnusedKey::key); no_use != unused.end())
+      throw Error(ErrorKind::bad_input, fmt::format("{}: '{}' has no effect {}", at(node), name, no_use->why));
+    return parameter;
+  }
+
   std::string at(const toml::node& node) const { return fmt::format("{}, line {}", shot_, node.source().begin.line); }
 
   [[noreturn]] void refuse(std::string_view key, const toml::node& node, std::string_view expected) const {
@@ -52,7 +120,8 @@ class ShotTable {
   void check_keys(std::span<const UnusedKey> unused) const {
     for (const auto& [name, node] : table_) {
       const std::string_view key = name.str();
-      const auto no_use = std::ranges::find(unused, key, &UnusedKey::key);
+      const auto no_use =
+          std::ranges::find_if(unused, [&](const UnusedKey& one) { return one.key == key && !one.if_moved; });
       if (no_use != unused.end())
         throw Error(ErrorKind::bad_input, fmt::format("{}: '{}' has no effect {}", at(node), key, no_use->why));
       if (std::ranges::find(keys_of_shots, key) != keys_of_shots.end() || find_parameter(key) != nullptr) continue;
@@ -76,15 +145,14 @@ class ShotTable {
     return number->get();
   }
 
-  std::variant<std::int64_t, double> begin() const {
-    const toml::node* node = table_.get("begin");
+  WrittenFrame written_frame(std::string_view key, std::string_view what) const {
+    const toml::node* node = table_.get(key);
     if (node == nullptr)
-      throw Error(ErrorKind::bad_input,
-                  fmt::format("{}: has no 'begin', expected its first frame, or a time", at(table_)));
-    if (node->is_integer()) return frame("begin", *node);
+      throw Error(ErrorKind::bad_input, fmt::format("{}: has no '{}', expected {}, or a time", at(table_), key, what));
+    if (node->is_integer()) return frame(key, *node);
     const auto* text = node->as_string();
     const std::optional<double> seconds = text != nullptr ? film_time_from(text->get()) : std::nullopt;
-    if (!seconds) refuse("begin", *node, "a frame, counted from 1, or a time, as \"0:02.5\"");
+    if (!seconds) refuse(key, *node, "a frame, counted from 1, or a time, as \"0:02.5\"");
     return *seconds;
   }
 
@@ -166,7 +234,8 @@ std::string shots_file_text(std::span<const FoundShot> shots) {
       "# [[shot]] to add a cut, and delete one to remove its cut. `begin` is the first frame, counted from 1, or a\n"
       "# time, as \"0:02.5\". What a shot does not set is as on the command line. A shot takes `style`, all "
       "parameters\n"
-      "# of its style, `depth-budget`, `zero-parallax`, and `last`, its last frame, if that is to be checked.\n";
+      "# of its style, `depth-budget`, `zero-parallax`, and `last`, its last frame, if that is to be checked. A\n"
+      "# [[shot.key]] after it gives numbers `at` a frame or time, between which they move.\n";
   for (std::size_t i = 0; i < shots.size(); ++i) {
     const FoundShot& shot = shots[i];
     text += fmt::format(
@@ -196,11 +265,9 @@ std::vector<WrittenShot> parse_shots(std::string_view toml, const fs::path& file
         refuse(fmt::format("line {}: unknown key '{}', expected [[shot]] tables", node.source().begin.line, key.str()));
     const toml::array* tables = document["shot"].as_array();
     if (tables == nullptr || tables->empty()) refuse("has no shots, expected [[shot]] tables");
-    for (const toml::node& node : *tables) {
-      const std::string shot = fmt::format("{}: shot {}", name, shots.size() + 1);
-      if (!node.is_table()) throw Error(ErrorKind::bad_input, fmt::format("{}: is no table, expected [[shot]]", shot));
-      shots.push_back(ShotTable(*node.as_table(), shot, file.parent_path()).read(all, unused));
-    }
+    for_each_table(*tables, name + ": shot", "[[shot]]", [&](const toml::table& table, const std::string& shot) {
+      shots.push_back(ShotTable(table, shot, file.parent_path()).read(all, unused));
+    });
   } catch (const toml::parse_error& error) {
     refuse(fmt::format("line {}: {}", error.source().begin.line, error.description()));
   }

@@ -61,6 +61,34 @@ TEST(ShotsFile, NamesStyleFilesAsSeenFromItsFolder) {
   EXPECT_EQ(shots.at(0).painted.style.curvature, 0.5);
 }
 
+TEST(ShotsFile, HasKeysOfNumbersThatMove) {
+  const std::vector<WrittenShot> shots = parse_shots(R"([[shot]]
+begin = 1
+depth-budget = "full"
+[[shot.key]]
+at = 3
+streaks = 4
+zero-parallax = 7.5
+[[shot.key]]
+at = "0:01.5"
+dry = 0.25
+[[shot]]
+begin = 91
+)",
+                                                     "s.toml", {});
+  ASSERT_EQ(shots.at(0).keys.size(), 2u);
+  EXPECT_TRUE(shots.at(1).keys.empty());
+  const WrittenKey &first = shots[0].keys[0], &second = shots[0].keys[1];
+  EXPECT_EQ(std::get<std::int64_t>(first.at), 3);
+  EXPECT_EQ(std::get<double>(second.at), 1.5);
+  ASSERT_EQ(first.values.size(), 2u);
+  EXPECT_EQ(first.values[0].parameter, "streaks");
+  EXPECT_EQ(first.values[0].value, 4);
+  EXPECT_EQ(first.values[1].value, 7.5f);
+  EXPECT_EQ(second.values.at(0).value, 0.25f);
+  EXPECT_EQ(second.where, "s.toml: shot 1, key 2, line 8");
+}
+
 TEST(ShotsFile, ThatWasListedChangesNothing) {
   const std::vector<FoundShot> found{{0, 5, 0, 0.2, "a_001.jpg"}, {5, 4, 0.2, 0.16, "a_002.jpg"}};
   RotoscopeOptions all;
@@ -111,7 +139,29 @@ TEST(ShotsFile, ThatIsWrongIsRefusedWithItsPlace) {
   }};
   for (const auto& [text, message] : files)
     expect_error(ErrorKind::bad_input, message, [&text = text] { parse_shots(text, "s.toml", {}); });
-  const std::array<UnusedKey, 1> unused{{{"depth-budget", "on marks (.wst)"}}};
+  const std::string first = "[[shot]]\nbegin = 1\n[[shot.key]]\nat = 1\n";
+  const std::array<std::array<std::string, 2>, 12> keys{{
+      {"[[shot]]\nbegin = 1\nkey = 2\n", "s.toml: shot 1, line 3: 'key' is not [[shot.key]] tables"},
+      {"[[shot]]\nbegin = 1\nkey = [2]\n", "s.toml: shot 1, key 1: is no table, expected [[shot.key]]"},
+      {"[[shot]]\nbegin = 1\n[[shot.key]]\ndry = 1\n", "s.toml: shot 1, key 1, line 3: has no 'at', expected a frame"},
+      {first, "s.toml: shot 1, key 1, line 3: gives no number, expected one of depth-budget, zero-parallax, opacity"},
+      {first + "radii = [4]\n", "s.toml: shot 1, key 1, line 5: 'radii' does not move, expected at and one of depth-"},
+      {first + "style = \"oil\"\n", "s.toml: shot 1, key 1, line 5: 'style' does not move"},
+      {first + "strokez = 2\n", "s.toml: shot 1, key 1, line 5: unknown key 'strokez', expected at and one of depth-"},
+      {first + "opacity = 2\n", "s.toml: shot 1, key 1: style: opacity is 2, expected 0.01 to 1"},
+      {first + "depth-budget = \"full\"\n", "key 1, line 5: 'depth-budget' is not a share of the width, which moves"},
+      {first + "zero-parallax = \"5\"\n", "key 1, line 5: 'zero-parallax' is not a disparity in pixels"},
+      {"[[shot]]\nbegin = 1\nstyle = \"mosaic\"\n[[shot.key]]\nat = 2\ndry = 0.5\n",
+       "s.toml: shot 1, key 1, line 6: 'dry' has no effect on a painting of tiles"},
+      {"[[shot]]\nbegin = 1\ndry = 1\n[[shot.key]]\nat = 2\ndry = 0.5\n",
+       "s.toml: shot 1, key 1, line 6: 'dry' is also set by the shot; leave it out there, or in its keys"},
+  }};
+  for (const auto& [text, message] : keys)
+    expect_error(ErrorKind::bad_input, message, [&text = text] { parse_shots(text, "s.toml", {}); });
+  const std::array<UnusedKey, 2> unused{{{"depth-budget", "on marks (.wst)"}, {"zero-parallax", "in a key", true}}};
+  parse_shots("[[shot]]\nbegin = 1\nzero-parallax = 2\n", "s.toml", {}, unused);
+  expect_error(ErrorKind::bad_input, "s.toml: shot 1, key 1, line 5: 'zero-parallax' has no effect in a key",
+               [&] { parse_shots(first + "zero-parallax = 2\n", "s.toml", {}, unused); });
   expect_error(ErrorKind::bad_input, "s.toml: shot 1, line 3: 'depth-budget' has no effect on marks (.wst)",
                [&] { parse_shots("[[shot]]\nbegin = 1\ndepth-budget = \"3%\"\n", "s.toml", {}, unused); });
 }
@@ -120,11 +170,12 @@ TEST(ShotsFile, ThatIsWrongIsRefusedWithItsPlace) {
 class PlacedShots : public testing::Test {
  protected:
   PlacedShots() { make_film(folder_ / "a.mkv", 20, {.preset = "ultrafast"}); }
+  std::vector<FilmShot> placed(const std::string& toml, const FilmReaderOptions& reading = {}) const {
+    return place_shots(parse_shots(toml, "s.toml", {}), {folder_ / "a.mkv", {}, StereoLayout::mono}, reading);
+  }
   std::vector<std::int64_t> begins(const std::string& toml, const FilmReaderOptions& reading = {}) const {
     std::vector<std::int64_t> begins;
-    const FilmFiles film{folder_ / "a.mkv", {}, StereoLayout::mono};
-    for (const FilmShot& shot : place_shots(parse_shots(toml, "s.toml", {}), film, reading))
-      begins.push_back(shot.begin);
+    for (const FilmShot& shot : placed(toml, reading)) begins.push_back(shot.begin);
     return begins;
   }
   void expect_refused(const std::string& toml, const std::string& message) const {
@@ -146,6 +197,37 @@ TEST_F(PlacedShots, OfAPartOfTheFilmAreThoseThatItHasFramesOf) {
   const std::string toml = "[[shot]]\nbegin = 1\n[[shot]]\nbegin = 6\n[[shot]]\nbegin = 13\n[[shot]]\nbegin = 18\n";
   EXPECT_THAT(begins(toml, {.from_s = 0.32, .to_s = 0.6}), ElementsAre(0, 4));
   EXPECT_THAT(begins(toml, {.every = 4}), ElementsAre(0, 2, 3));
+}
+
+TEST_F(PlacedShots, HaveTheirKeysAtTheTimesOfFrames) {
+  const std::string toml =
+      "[[shot]]\nbegin = 1\n[[shot]]\nbegin = 6\n[[shot.key]]\nat = 6\ndry = 0.5\nzero-parallax = 2\n"
+      "[[shot.key]]\nat = \"0.45\"\ndry = 0.1\n";
+  for (const FilmReaderOptions& reading : {FilmReaderOptions{}, FilmReaderOptions{.from_s = 0.32}}) {
+    const std::vector<MovingParameter> moving = placed(toml, reading).back().moving;
+    ASSERT_EQ(moving.size(), 2u);
+    EXPECT_EQ(moving[0].name, "dry");
+    ASSERT_EQ(moving[0].keys.size(), 2u);
+    EXPECT_NEAR(moving[0].keys[0].at_s, 0.2, 1e-3);
+    EXPECT_NEAR(moving[0].keys[1].at_s, 0.48, 1e-3);
+    EXPECT_EQ(moving[0].keys[1].value, 0.1f);
+    ASSERT_EQ(moving[1].keys.size(), 1u);
+    EXPECT_EQ(moving[1].keys[0].value, 2);
+  }
+}
+
+TEST_F(PlacedShots, WhoseKeysDoNotFitAreRefused) {
+  const std::string shots = "[[shot]]\nbegin = 1\n[[shot]]\nbegin = 6\nlast = 9\n", end = "[[shot]]\nbegin = 10\n";
+  const auto key = [](const std::string& at) { return "[[shot.key]]\nat = " + at + "\ndry = 0.5\n"; };
+  expect_refused(shots + key("5") + end, "s.toml: shot 2, key 1, line 6: lies at frame 5, outside its shot, which");
+  expect_refused(shots + key("10") + end, "begins with frame 6 and ends with frame 9");
+  expect_refused(shots + key("\"0.1\"") + end, "key 1, line 6: lies at frame 4, outside its shot");
+  expect_refused(shots + key("8") + key("7") + end, "s.toml: shot 2, key 2, line 9: lies at frame 7, expected a later");
+  expect_refused(shots + key("8") + key("\"0.28\"") + end,
+                 "lies at frame 8, expected a later one than 8, where the key");
+  expect_refused(shots + end + key("21"),
+                 "s.toml: shot 3, key 1, line 8: lies beyond the end of the film, which has 20");
+  expect_refused(shots + end + key("\"0:09\""), "lies beyond the end of the film, which has 20 frames");
 }
 
 TEST_F(PlacedShots, ThatDoNotFitTheFilmAreRefused) {

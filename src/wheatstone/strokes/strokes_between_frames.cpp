@@ -8,7 +8,7 @@ namespace wheatstone {
 namespace {
 
 struct ShownStroke {
-  float opacity = 0;
+  float opacity = 0;  ///< as a share of the paint's, which is that of strokes that do not fade
   bool is_part = false;
 };
 using ShownStrokes = std::unordered_map<std::uint32_t, ShownStroke>;
@@ -21,22 +21,18 @@ ShownStrokes shown_strokes(std::span<const Layer> layers) {
       ShownStroke& one = shown[stroke.number];
       one = {std::max(one.opacity, stroke.opacity), stroke.is_part};
     }
+  float paint = 0;
+  for (const auto& [number, stroke] : shown) paint = std::max(paint, stroke.opacity);
+  for (auto& [number, stroke] : shown) stroke.opacity /= paint;
   return shown;
-}
-
-float largest_opacity(const ShownStrokes& shown) {
-  float most = 0;
-  for (const auto& [number, stroke] : shown) most = std::max(most, stroke.opacity);
-  return most;
 }
 
 }  // namespace
 
 StrokeChanges compare_strokes(std::span<const Layer> first, std::span<const Layer> second, double largest_step) {
   const ShownStrokes before = shown_strokes(first), now = shown_strokes(second);
-  constexpr float rounding = 1e-3f;
-  const float paint = std::max(largest_opacity(before), largest_opacity(now)), whole = paint - rounding;
-  const float step = static_cast<float>(largest_step) * paint + rounding;
+  constexpr float rounding = 1e-3f, whole = 1 - rounding;
+  const float step = static_cast<float>(largest_step) + rounding;
   StrokeChanges changes;
   for (const auto& [number, stroke] : before) {
     const auto found = now.find(number);

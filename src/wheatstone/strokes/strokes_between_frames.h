@@ -16,7 +16,8 @@ struct StrokeChanges {
   std::int64_t popped = 0;    ///< whose opacity changes by more than the largest step, or that begin with more
 };
 
-/// `largest_step` is a share of the paint's opacity: 1/fade, of the shorter fade. Strokes need numbers.
+/// `largest_step` is a share of the paint's opacity, which is that of the most opaque stroke of each frame: 1/fade, of
+/// the shorter fade. Strokes need numbers.
 StrokeChanges compare_strokes(std::span<const Layer> first, std::span<const Layer> second, double largest_step);
 
 }  // namespace wheatstone

@@ -403,7 +403,7 @@ std::int64_t living_strokes(const StrokeMemory& memory) {
   return count;
 }
 
-/// Brings all strokes to this frame.
+/// Brings all strokes to this frame, whose style may have another opacity.
 void carry(const FilmFrame& frame, const Style& style, const CarryOptions& options, StrokeMemory& memory) {
   const ScaledStyle scaled(style, frame.views.front().colour.width());
   const float threshold_px = scaled.depth_threshold_px;
@@ -412,6 +412,7 @@ void carry(const FilmFrame& frame, const Style& style, const CarryOptions& optio
     std::vector<TrackedLayer*> layers;
     for (std::size_t view = 0; view < frame.views.size(); ++view) {
       layers.push_back(&memory.views[view][i]);
+      for (Stroke& stroke : memory.views[view][i].layer.strokes) stroke.opacity = style.opacity;
       carry_layer(motion, frame.views[view], threshold_px, options, memory.views[view][i]);
       fade(options, memory.views[view][i]);
     }
