@@ -43,6 +43,7 @@ std::vector<FilmShot> shots_from(const ShotsArguments& arguments, const FilmFile
   std::vector<UnusedKey> unused;
   if (!no_budget.empty()) unused.push_back({"depth-budget", no_budget});
   if (!no_plane.empty()) unused.push_back({"zero-parallax", no_plane});
+  if (limited.of_marks) unused.push_back({"dissolve", "on marks (.wst); they are not drawn"});
   if (options.frames.display)
     unused.push_back({"zero-parallax", "in a key with --display; a shot is planned for one screen plane", true});
   return place_shots(read_shots(arguments.file, options.frames, unused), film, options.reading, session.progress);

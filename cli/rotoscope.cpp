@@ -286,7 +286,7 @@ void take_ranks(const FilmFiles& film, RotoscopeFilmOptions& options, const Sess
     options.scenes = find_scenes(looked_at, session.ranks, session.progress);
     return;
   }
-  for (const FilmShot& shot : options.shots) options.scenes.begins.push_back(shot.begin);
+  options.scenes.begins = cuts_of(options.shots);
   options.scenes.frames = looked_at.skip(std::numeric_limits<std::int64_t>::max());
 }
 

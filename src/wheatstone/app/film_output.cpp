@@ -95,48 +95,49 @@ std::int64_t FilmOutput::frames_done() const {
   return least;
 }
 
-RotoscopeState FilmOutput::state() const {
-  return frames_done() > 0 ? read_rotoscope_state(state_file(path_, frames_done())) : RotoscopeState();
+FilmState FilmOutput::state() const {
+  return frames_done() > 0 ? read_film_state(state_file(path_, frames_done())) : FilmState();
 }
 
-void FilmOutput::write_marks(const PlannedFilmFrame& frame, const StereoFrame& times, const RotoscopeState& state) {
+void FilmOutput::write_marks(const PaintedFilmFrame& frame, const StereoFrame& times, const FilmState& state) {
   if (plan_) plan_->write(frame, times);
-  if (marks_) marks_->write(state.frames, frame.painting);
+  if (marks_) marks_->write(state.shot.frames, frame.shot.painting);
 }
 
-void FilmOutput::write(Frame frame, const RotoscopeState& state) {
+void FilmOutput::write(Frame frame, const FilmState& state) {
   if (films_.empty()) return;
   const int interval = options_.frames_between_checkpoints;
-  const bool at_checkpoint = state.frames % interval == 0;
+  const std::int64_t number = state.shot.frames;
+  const bool at_checkpoint = number % interval == 0;
   // Before the segment of these frames is closed: each closed segment has its state.
-  if (at_checkpoint) write_rotoscope_state(state_file(path_, state.frames), state);
+  if (at_checkpoint) write_film_state(state_file(path_, number), state);
   // The film's frames and their marks are kept together.
   std::unique_lock<std::recursive_mutex> hold;
   if (at_checkpoint) hold = hold_outputs();
   const std::vector<Frame> frames = frames_of_films(std::move(frame), films_.size());
   // A run may have been killed when one film had closed a segment and the other had not yet.
   for (std::size_t i = 0; i < films_.size(); ++i)
-    if (state.frames > kept_[i]) films_[i].write(frames[i]);
+    if (number > kept_[i]) films_[i].write(frames[i]);
   if (!at_checkpoint) return;
   if (marks_) marks_->keep();
-  std::error_code ignored;
-  fs::remove(state_file(path_, state.frames - interval), ignored);
+  remove_film_state(state_file(path_, number - interval));
 }
 
-std::vector<std::string> FilmOutput::finish(const RotoscopeState& state, const Progress& progress) {
+std::vector<std::string> FilmOutput::finish(const FilmState& state, const Progress& progress) {
   // The film and its marks get their names together: no signal may end the program in between.
   const auto hold = hold_outputs();
-  if (plan_) finish_plan(state);
+  if (plan_) finish_plan(state.shot);
   if (!films_.empty()) finish_films(state, progress);
-  if (marks_) marks_->give_names(state.frames);
+  if (marks_) marks_->give_names(state.shot.frames);
   return films_.empty() ? std::vector<std::string>() : films_.front().notes();
 }
 
-void FilmOutput::finish_films(const RotoscopeState& state, const Progress& progress) {
+void FilmOutput::finish_films(const FilmState& state, const Progress& progress) {
   // Joining closes the last segment, and may be stopped, too.
-  if (state.frames > frames_done()) write_rotoscope_state(state_file(path_, state.frames), state);
-  if (marks_) marks_->check(state.frames);
-  const std::string comment = moved_eyes_note(state.totals.moved_frames, state.totals.least_separation);
+  const std::int64_t frames = state.shot.frames;
+  if (frames > frames_done()) write_film_state(state_file(path_, frames), state);
+  if (marks_) marks_->check(frames);
+  const std::string comment = moved_eyes_note(state.shot.totals.moved_frames, state.shot.totals.least_separation);
   for (SegmentedFilm& film : films_) {
     if (!comment.empty()) film.set_comment(comment);
     // Stopped between two films, the run would leave one of them.

@@ -28,15 +28,15 @@ class FilmOutput {
   std::int64_t frames_done() const;
 
   /// After the frames that are done.
-  RotoscopeState state() const;
+  FilmState state() const;
 
   bool is_plan() const { return plan_.has_value(); }
   /// Adds the marks of a frame to the plan, or to the files of marks; of `times` only the times count.
-  void write_marks(const PlannedFilmFrame& frame, const StereoFrame& times, const RotoscopeState& state);
-  void write(Frame frame, const RotoscopeState& state);
+  void write_marks(const PaintedFilmFrame& frame, const StereoFrame& times, const FilmState& state);
+  void write(Frame frame, const FilmState& state);
 
   /// Gives everything its name. Returns what the user should know.
-  std::vector<std::string> finish(const RotoscopeState& state, const Progress& progress);
+  std::vector<std::string> finish(const FilmState& state, const Progress& progress);
 
   /// Removes what cannot be resumed.
   void discard();
@@ -44,7 +44,7 @@ class FilmOutput {
  private:
   void open_film(const std::filesystem::path& path);
   void check_films();
-  void finish_films(const RotoscopeState& state, const Progress& progress);
+  void finish_films(const FilmState& state, const Progress& progress);
   void finish_plan(const RotoscopeState& state);
 
   std::filesystem::path path_;

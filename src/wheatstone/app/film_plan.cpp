@@ -101,15 +101,17 @@ DrawnPart draw_film_part(const fs::path& folder, const FilmPlan& plan, FrameRang
     for (std::int64_t number = frames.first; number <= frames.last; ++number) {
       report(progress, fmt::format("drawing frame {} of {} to {}", number, range.first, range.last),
              static_cast<double>(number - range.first) / static_cast<double>(range.last - range.first + 1));
-      const FrameOfPlan planned = read_planned_frame(folder, plan, number);
-      DrawnFrame drawn = draw_film_frame(planned.painting, planned.showing);
-      const PlannedShowing& shown = plan.frames[static_cast<std::size_t>(number - 1)];
+      const FrameInPlan& shown = plan.frames[static_cast<std::size_t>(number - 1)];
+      const auto draw = [&](const FrameOfPlan& planned) {
+        DrawnFrame drawn = draw_film_frame(planned.painting, planned.showing);
+        part.worst_bare_share = std::max(part.worst_bare_share, drawn.worst_bare_share);
+        return picture_in_film(std::move(drawn.pictures), layout, plan.anaglyph);
+      };
+      Image<Rgb8> picture = draw(read_planned_frame(folder, plan, number));
+      if (shown.outgoing) dissolve_from(draw(read_outgoing_frame(folder, plan, number)), shown.share, picture);
       const std::vector<Frame> of_films =
-          frames_of_films({picture_in_film(std::move(drawn.pictures), layout, plan.anaglyph), shown.pts,
-                           shown.time_base, shown.duration},
-                          films.size());
+          frames_of_films({std::move(picture), shown.pts, shown.time_base, shown.duration}, films.size());
       for (std::size_t i = 0; i < files.size(); ++i) files[i].write(of_films[i]);
-      part.worst_bare_share = std::max(part.worst_bare_share, drawn.worst_bare_share);
       ++part.frames;
     }
     for (FilmSegment& file : files) file.finish();

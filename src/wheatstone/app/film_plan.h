@@ -18,9 +18,10 @@ namespace wheatstone {
 // A painted film that is planned in one run, drawn in parts by any number of others, and joined by a last one, with the
 // bytes of a film that one run makes. The plan is a folder: `plan` (FilmPlan), for each frame, from 1 on, its complete
 // marks marks_000001.wst and the pictures behind its paint, left_000001.png and right_000001.png, where the style has
-// them there; and `parts/` with the segments that are drawn.
+// them there, and in a dissolve the same of the shot that fades out, outgoing_marks_000001.wst; and `parts/` with the
+// segments that are drawn.
 
-/// How a planned frame is shown, and when.
+/// How a planned painting is shown.
 struct PlannedShowing {
   std::vector<ViewPosition> views;
   Placement placement;
@@ -28,7 +29,14 @@ struct PlannedShowing {
   std::optional<LenticularScreen> screen;
   Device device = Device::processor;
   std::int32_t backgrounds = 0;  ///< pictures behind the paint: none, or one a view
-  std::int64_t pts = 0;          ///< as Frame
+};
+
+/// How a planned frame is shown, and when.
+struct FrameInPlan {
+  PlannedShowing shot;
+  std::optional<PlannedShowing> outgoing = {};  ///< in a dissolve
+  float share = 1;                              ///< of the shot's picture
+  std::int64_t pts = 0;                         ///< as Frame
   Rational time_base{1, 1};
   std::int64_t duration = 0;
 };
@@ -39,7 +47,7 @@ struct FilmPlan {
   FilmWriterOptions writing;
   std::string anaglyph;         ///< as RotoscopeFilmOptions
   int frames_per_segment = 48;  ///< as SegmentOptions
-  std::vector<PlannedShowing> frames;
+  std::vector<FrameInPlan> frames;
 };
 
 /// Reads the description of a plan. Throws Error{bad_input} where there is none, it is damaged, or another version of

@@ -19,14 +19,17 @@ namespace fs = std::filesystem;
 
 constexpr FieldFile plan_format{"WSPLAN 1", "plan the film again"};
 constexpr auto plan_name = "plan";
+constexpr auto of_shot = "", of_outgoing = "outgoing_";  ///< beginnings of the names of files
 
-std::string marks_name(std::int64_t number) { return fmt::format("marks_{:06}.wst", number); }
-
-std::string background_name(std::int64_t number, std::size_t place) {
-  return fmt::format("{}_{:06}.png", place == 0 ? "left" : "right", number);
+std::string marks_name(const std::string& of, std::int64_t number) {
+  return fmt::format("{}marks_{:06}.wst", of, number);
 }
 
-/// Whether a frame can be shown so: those who draw it trust these numbers.
+std::string background_name(const std::string& of, std::int64_t number, std::size_t place) {
+  return fmt::format("{}{}_{:06}.png", of, place == 0 ? "left" : "right", number);
+}
+
+/// Whether a painting can be shown so: those who draw it trust these numbers.
 bool can_be_shown(const PlannedShowing& showing) {
   constexpr int largest_side_px = 65535;
   constexpr std::size_t most_views = 4096;
@@ -35,8 +38,7 @@ bool can_be_shown(const PlannedShowing& showing) {
   bool holds = !showing.views.empty() && showing.views.size() <= most_views && is_side(placement.width) &&
                is_side(placement.height) && placement.scale > 0 && std::isfinite(placement.scale) &&
                std::isfinite(placement.left) && std::isfinite(placement.top) &&
-               std::isfinite(placement.zero_parallax_px) && showing.time_base.numerator > 0 &&
-               showing.time_base.denominator > 0 && !(showing.quilt && showing.screen) &&
+               std::isfinite(placement.zero_parallax_px) && !(showing.quilt && showing.screen) &&
                showing.device <= Device::automatic;
   for (const ViewPosition view : showing.views) holds = holds && std::isfinite(view.eye_separations());
   if (const auto& quilt = showing.quilt)
@@ -53,20 +55,20 @@ bool can_be_shown(const PlannedShowing& showing) {
 void check_plan(const FilmPlan& plan, const FieldReader& reader) {
   reader.expect(!plan.frames.empty() && plan.frames_per_segment > 0 && !plan.film.empty() &&
                 plan.writing.layout <= StereoLayout::alternating);
-  for (const PlannedShowing& frame : plan.frames) reader.expect(can_be_shown(frame));
+  for (const FrameInPlan& frame : plan.frames) {
+    reader.expect(can_be_shown(frame.shot) && frame.time_base.numerator > 0 && frame.time_base.denominator > 0);
+    if (frame.outgoing) reader.expect(can_be_shown(*frame.outgoing) && frame.share >= 0 && frame.share <= 1);
+  }
 }
 
-PlannedShowing planned_showing(const FrameShowing& showing, const StereoFrame& times) {
+PlannedShowing planned_showing(const FrameShowing& showing) {
   const Presentation& presentation = showing.presentation;
   PlannedShowing planned{.views = presentation.views,
                          .placement = presentation.placement,
                          .quilt = {},
                          .screen = {},
                          .device = presentation.device,
-                         .backgrounds = static_cast<std::int32_t>(showing.backgrounds.size()),
-                         .pts = times.pts,
-                         .time_base = times.time_base,
-                         .duration = times.duration};
+                         .backgrounds = static_cast<std::int32_t>(showing.backgrounds.size())};
   if (const auto& composition = presentation.composition) {
     if (const auto* const quilt = std::get_if<QuiltLayout>(&*composition))
       planned.quilt = *quilt;
@@ -74,6 +76,18 @@ PlannedShowing planned_showing(const FrameShowing& showing, const StereoFrame& t
       planned.screen = std::get<LenticularScreen>(*composition);
   }
   return planned;
+}
+
+FrameOfPlan read_frame(const fs::path& folder, const PlannedShowing& planned, const std::string& of,
+                       std::int64_t number) {
+  FrameOfPlan frame{read_painting(folder / marks_name(of, number)), {}};
+  Presentation& presentation = frame.showing.presentation;
+  presentation = {.views = planned.views, .placement = planned.placement, .device = planned.device};
+  if (planned.quilt) presentation.composition = *planned.quilt;
+  if (planned.screen) presentation.composition = *planned.screen;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(planned.backgrounds); ++i)
+    frame.showing.backgrounds.push_back(read_image(folder / background_name(of, number, i)));
+  return frame;
 }
 
 }  // namespace
@@ -113,12 +127,23 @@ FilmPlanWriter::FilmPlanWriter(const fs::path& folder)
         return folder;
       }()) {}
 
-void FilmPlanWriter::write(const PlannedFilmFrame& frame, const StereoFrame& times) {
-  frames_.push_back(planned_showing(frame.showing, times));
+void FilmPlanWriter::write(const PaintedFilmFrame& frame, const StereoFrame& times) {
+  FrameInPlan& added = frames_.emplace_back(FrameInPlan{.shot = planned_showing(frame.shot.showing),
+                                                        .share = frame.share,
+                                                        .pts = times.pts,
+                                                        .time_base = times.time_base,
+                                                        .duration = times.duration});
+  write_painting_of(frame.shot, of_shot);
+  if (!frame.outgoing) return;
+  added.outgoing = planned_showing(frame.outgoing->showing);
+  write_painting_of(*frame.outgoing, of_outgoing);
+}
+
+void FilmPlanWriter::write_painting_of(const PlannedFilmFrame& frame, const std::string& prefix) {
   const auto number = static_cast<std::int64_t>(frames_.size());
-  write_painting(folder_.file(marks_name(number)), frame.painting);
+  write_painting(folder_.file(marks_name(prefix, number)), frame.painting);
   for (std::size_t i = 0; i < frame.showing.backgrounds.size(); ++i)
-    write_image(folder_.file(background_name(number, i)), frame.showing.backgrounds[i]);
+    write_image(folder_.file(background_name(prefix, number, i)), frame.showing.backgrounds[i]);
 }
 
 void FilmPlanWriter::finish(FilmPlan plan) {
@@ -128,15 +153,11 @@ void FilmPlanWriter::finish(FilmPlan plan) {
 }
 
 FrameOfPlan read_planned_frame(const fs::path& folder, const FilmPlan& plan, std::int64_t number) {
-  const PlannedShowing& planned = plan.frames[static_cast<std::size_t>(number - 1)];
-  FrameOfPlan frame{read_painting(folder / marks_name(number)), {}};
-  Presentation& presentation = frame.showing.presentation;
-  presentation = {.views = planned.views, .placement = planned.placement, .device = planned.device};
-  if (planned.quilt) presentation.composition = *planned.quilt;
-  if (planned.screen) presentation.composition = *planned.screen;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(planned.backgrounds); ++i)
-    frame.showing.backgrounds.push_back(read_image(folder / background_name(number, i)));
-  return frame;
+  return read_frame(folder, plan.frames[static_cast<std::size_t>(number - 1)].shot, of_shot, number);
+}
+
+FrameOfPlan read_outgoing_frame(const fs::path& folder, const FilmPlan& plan, std::int64_t number) {
+  return read_frame(folder, *plan.frames[static_cast<std::size_t>(number - 1)].outgoing, of_outgoing, number);
 }
 
 }  // namespace wheatstone

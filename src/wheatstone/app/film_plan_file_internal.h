@@ -7,6 +7,7 @@
 
 #include "wheatstone/app/film_plan.h"
 #include "wheatstone/app/output_folder.h"
+#include "wheatstone/app/paint_film_frame_internal.h"
 
 namespace wheatstone {
 
@@ -18,14 +19,16 @@ class FilmPlanWriter {
   explicit FilmPlanWriter(const std::filesystem::path& folder);
 
   /// Adds the next frame; of `times` only the times count.
-  void write(const PlannedFilmFrame& frame, const StereoFrame& times);
+  void write(const PaintedFilmFrame& frame, const StereoFrame& times);
 
   /// `plan` without frames: those that were written are added.
   void finish(FilmPlan plan);
 
  private:
+  void write_painting_of(const PlannedFilmFrame& frame, const std::string& prefix);
+
   OutputFolder folder_;
-  std::vector<PlannedShowing> frames_;
+  std::vector<FrameInPlan> frames_;
 };
 
 /// A frame of a plan, counted from 1, as draw_film_frame takes it.
@@ -36,6 +39,9 @@ struct FrameOfPlan {
 
 /// Throws Error{bad_input}.
 FrameOfPlan read_planned_frame(const std::filesystem::path& folder, const FilmPlan& plan, std::int64_t number);
+
+/// The same of the shot that fades out in this frame.
+FrameOfPlan read_outgoing_frame(const std::filesystem::path& folder, const FilmPlan& plan, std::int64_t number);
 
 /// The description of a plan as bytes, and back, checked. Throws Error{bad_input}.
 std::string encode_film_plan(const FilmPlan& plan);

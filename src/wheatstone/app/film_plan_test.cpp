@@ -148,9 +148,9 @@ TEST_F(PlannedFilm, StoppedLeavesNothing) {
 TEST(FilmPlanFile, DamagedOrOfAnotherVersionIsRefused) {
   const TemporaryFolder folder;
   FilmPlan plan{.version = "1", .film = "o.mp4", .right_film = {}, .writing = {}, .anaglyph = {}, .frames = {}};
-  plan.frames = {{.views = {left_eye, right_eye}, .quilt = {}, .screen = {}, .time_base = {1, 25}}};
+  plan.frames = {{.shot = {.views = {left_eye, right_eye}, .quilt = {}, .screen = {}}, .time_base = {1, 25}}};
   const std::string whole = encode_film_plan(plan);
-  EXPECT_EQ(decode_film_plan(whole, "p").frames.front().views, plan.frames.front().views);
+  EXPECT_EQ(decode_film_plan(whole, "p").frames.front().shot.views, plan.frames.front().shot.views);
   for (std::size_t size = 0; size < whole.size(); ++size)
     expect_error(ErrorKind::bad_input, "p: is damaged", [&] { decode_film_plan(whole.substr(0, size), "p"); });
   std::mt19937 random(7);
@@ -165,11 +165,13 @@ TEST(FilmPlanFile, DamagedOrOfAnotherVersionIsRefused) {
     change(changed.frames.front());
     expect_error(ErrorKind::bad_input, "p: is damaged", [&] { decode_film_plan(encode_film_plan(changed), "p"); });
   };
-  refused([](PlannedShowing& frame) { frame.views.clear(); });
-  refused([](PlannedShowing& frame) { frame.backgrounds = 1; });
-  refused([](PlannedShowing& frame) { frame.quilt = QuiltLayout{3, 1}; });
-  refused([](PlannedShowing& frame) { frame.placement.scale = std::numeric_limits<double>::infinity(); });
-  refused([](PlannedShowing& frame) { frame.placement.width = 1 << 30; });
+  refused([](FrameInPlan& frame) { frame.shot.views.clear(); });
+  refused([](FrameInPlan& frame) { frame.shot.backgrounds = 1; });
+  refused([](FrameInPlan& frame) { frame.shot.quilt = QuiltLayout{3, 1}; });
+  refused([](FrameInPlan& frame) { frame.shot.placement.scale = std::numeric_limits<double>::infinity(); });
+  refused([](FrameInPlan& frame) { frame.shot.placement.width = 1 << 30; });
+  refused([](FrameInPlan& frame) { frame.time_base.denominator = 0; });
+  refused([](FrameInPlan& frame) { frame.outgoing = PlannedShowing(); });
   put_bytes(folder / "plan", whole);
   EXPECT_EQ(read_film_plan(folder / "", "1").film, plan.film);
   expect_error(ErrorKind::bad_input, "was planned by Wheatstone 1, expected 2",

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "wheatstone/app/eyes_in_film.h"
@@ -51,6 +53,15 @@ Presentation for_display(PictureSize frame, const SceneDepth& scene, const FilmD
 Image<Rgb8> picture_in_film(FramePictures pictures, StereoLayout layout, std::string_view anaglyph) {
   const auto* const eyes = std::get_if<StereoPair>(&pictures);
   return eyes != nullptr ? put_into_frame(*eyes, layout, anaglyph) : std::get<Image<Rgb8>>(std::move(pictures));
+}
+
+void dissolve_from(const Image<Rgb8>& outgoing, float share, Image<Rgb8>& picture) {
+  const auto mixed = [share](std::uint8_t from, std::uint8_t to) {
+    return static_cast<std::uint8_t>(std::lround(from + share * static_cast<float>(to - from)));
+  };
+  std::ranges::transform(outgoing.pixels(), picture.pixels(), picture.pixels().begin(), [&](Rgb8 from, Rgb8 to) {
+    return Rgb8{mixed(from.r, to.r), mixed(from.g, to.g), mixed(from.b, to.b)};
+  });
 }
 
 DrawnFrame draw_film_frame(const Painting& painting, const FrameShowing& showing) {

@@ -46,6 +46,9 @@ using FramePictures = std::variant<StereoPair, Image<Rgb8>>;
 /// The picture of a frame as a film has it: two eyes put together, as put_into_frame.
 Image<Rgb8> picture_in_film(FramePictures pictures, StereoLayout layout, std::string_view anaglyph);
 
+/// Puts `share`, 0..1, of a picture over the rest of another one of its size.
+void dissolve_from(const Image<Rgb8>& outgoing, float share, Image<Rgb8>& picture);
+
 /// How a frame is shown, with the backgrounds that its presentation borrows.
 struct FrameShowing {
   Presentation presentation;             ///< without backgrounds

@@ -32,6 +32,10 @@ float value_at(const MovingParameter& parameter, double at_s) {
   return static_cast<float>(last.value + share * (next->value - last.value));
 }
 
+std::span<const FilmShot>::iterator shot_of(std::span<const FilmShot> shots, std::int64_t frame) {
+  return std::prev(std::ranges::upper_bound(shots, frame, {}, &FilmShot::begin));
+}
+
 }  // namespace
 
 std::span<const MovableParameter> movable_parameters() { return movable; }
@@ -41,21 +45,42 @@ const MovableParameter* find_movable_parameter(std::string_view name) {
   return found == movable.end() ? nullptr : found;
 }
 
-RotoscopeOptions options_of_frame(const RotoscopeOptions& options, std::span<const FilmShot> shots, std::int64_t frame,
-                                  double at_s) {
+RotoscopeOptions options_of_shot(const RotoscopeOptions& options, const FilmShot& shot, double at_s) {
+  static_assert(field_count<FilmShot>() == 6);
   RotoscopeOptions of_frame = options;
-  if (shots.empty()) return of_frame;
-  static_assert(field_count<FilmShot>() == 5);
-  const FilmShot& shot = *std::prev(std::ranges::upper_bound(shots, frame, {}, &FilmShot::begin));
   of_frame.style = shot.style;
   of_frame.depth_budget = shot.depth_budget;
   of_frame.zero_parallax_px = shot.zero_parallax_px;
-  of_frame.scene_begins = shot.begin == frame;
+  of_frame.scene_begins = false;
   for (const MovingParameter& parameter : shot.moving) {
     find_movable_parameter(parameter.name)->set(of_frame, value_at(parameter, at_s));
     of_frame.eyes_move |= parameter.name == "depth-budget" || parameter.name == "zero-parallax";
   }
   return of_frame;
+}
+
+RotoscopeOptions options_of_frame(const RotoscopeOptions& options, std::span<const FilmShot> shots, std::int64_t frame,
+                                  double at_s) {
+  if (shots.empty()) return options;
+  const FilmShot& shot = *shot_of(shots, frame);
+  RotoscopeOptions of_frame = options_of_shot(options, shot, at_s);
+  of_frame.scene_begins = shot.begin == frame;
+  return of_frame;
+}
+
+std::optional<Dissolve> dissolve_at(std::span<const FilmShot> shots, std::int64_t frame) {
+  if (shots.empty()) return std::nullopt;
+  const auto shot = shot_of(shots, frame);
+  const std::int64_t number = frame - shot->begin + 1;
+  if (shot == shots.begin() || number > shot->dissolve_frames) return std::nullopt;
+  return Dissolve{&*std::prev(shot), static_cast<float>(number) / static_cast<float>(shot->dissolve_frames + 1)};
+}
+
+std::vector<std::int64_t> cuts_of(std::span<const FilmShot> shots) {
+  std::vector<std::int64_t> cuts;
+  for (const FilmShot& shot : shots)
+    if (shot.dissolve_frames == 0) cuts.push_back(shot.begin);
+  return cuts;
 }
 
 bool begins_shot(std::span<const FilmShot> shots, std::int64_t frame) {

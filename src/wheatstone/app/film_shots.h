@@ -45,12 +45,29 @@ struct FilmShot {
   std::optional<float> depth_budget;         ///< as RotoscopeOptions
   std::optional<float> zero_parallax_px;     ///< as RotoscopeOptions
   std::vector<MovingParameter> moving = {};  ///< each instead of the member above
+  /// From `begin` on, in which the shot before it is painted, too, and fades out; 0: a cut. The first shot has none.
+  std::int64_t dissolve_frames = 0;
 };
+
+/// How a frame of a shot is painted that is shown at `at_s`; not its first one.
+RotoscopeOptions options_of_shot(const RotoscopeOptions& options, const FilmShot& shot, double at_s);
 
 /// How a frame, counted from 0 and shown at `at_s`, is painted. Shots are in order, and the first one begins with frame
 /// 0; where there are none, `options` say it.
 RotoscopeOptions options_of_frame(const RotoscopeOptions& options, std::span<const FilmShot> shots, std::int64_t frame,
                                   double at_s);
+
+/// A frame of two shots.
+struct Dissolve {
+  const FilmShot* outgoing = nullptr;
+  float share = 0;  ///< of the shot that has begun, 0..1
+};
+
+/// None where the frame belongs to one shot alone.
+std::optional<Dissolve> dissolve_at(std::span<const FilmShot> shots, std::int64_t frame);
+
+/// Where shots begin that nothing is carried into: with a cut.
+std::vector<std::int64_t> cuts_of(std::span<const FilmShot> shots);
 
 /// Whether a shot begins with the frame.
 bool begins_shot(std::span<const FilmShot> shots, std::int64_t frame);

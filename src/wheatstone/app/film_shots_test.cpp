@@ -12,6 +12,7 @@
 #include "thread_ranks.h"
 #include "throws_error.h"
 #include "wheatstone/app/film_plan.h"
+#include "wheatstone/app/paint_film_frame_internal.h"
 #include "wheatstone/app/rotoscope_film.h"
 
 namespace wheatstone::film_shots_test {
@@ -27,16 +28,16 @@ StereoPair eyes_of_frame(int frame) { return eyes_of_scenes(frame, other_scene);
 /// When a frame is shown.
 double time_s(std::int64_t frame) { return static_cast<double>(frame) / 25; }
 
-/// One ends where no cut is found; another goes on over one, and its numbers move.
+/// One ends where no cut is found; another fades in over it, goes on over a cut, and its numbers move.
 std::vector<FilmShot> shots_of_film() {
-  return {
-      {0, style_by_name("impressionist"), 0.03f, {}},
-      {2, style_by_name("posterise"), {}, {}},
-      {3,
-       style_by_name("expressionist"),
-       0.01f,
-       2.f,
-       {{"zero-parallax", {{time_s(3), 2}, {time_s(6), -1}}}, {"opacity", {{time_s(4), 0.9f}, {time_s(7), 0.3f}}}}}};
+  return {{0, style_by_name("impressionist"), 0.03f, {}},
+          {2, style_by_name("posterise"), {}, {}},
+          {3,
+           style_by_name("expressionist"),
+           0.01f,
+           2.f,
+           {{"zero-parallax", {{time_s(3), 2}, {time_s(6), -1}}}, {"opacity", {{time_s(4), 0.9f}, {time_s(7), 0.3f}}}},
+           3}};
 }
 
 class FilmOfShots : public testing::Test {
@@ -73,7 +74,7 @@ class FilmOfShots : public testing::Test {
     as_ranks(2, [&](const Ranks& ranks) {
       RotoscopeFilmOptions of_rank = options;
       of_rank.ranks = ranks;
-      of_rank.scenes = {{0, 2, 3}, film_frames};
+      of_rank.scenes = {cuts_of(options.shots), film_frames};
       paint(file("shared.mkv"), of_rank);
     });
     EXPECT_TRUE(bytes_of(file("shared.mkv")) == whole);
@@ -128,6 +129,35 @@ TEST_F(FilmOfShots, PaintsEachAsAlone) {
     EXPECT_EQ(a.painting, b.painting) << frame;
     EXPECT_EQ(std::get<StereoPair>(a.pictures).left, std::get<StereoPair>(b.pictures).left) << frame;
     EXPECT_EQ(std::get<StereoPair>(a.pictures).right, std::get<StereoPair>(b.pictures).right) << frame;
+  }
+}
+
+TEST_F(FilmOfShots, DissolvesFromOnePaintingOfTheFrameToTheOther) {
+  RotoscopeFilmOptions options = usual(), first = usual(), second = usual();
+  options.shots = {{0, style_by_name("impressionist"), {}, {}, {}}, {3, style_by_name("mosaic"), {}, {}, {}, 3}};
+  first.shots.resize(1);
+  first.shots[0] = options.shots[0];
+  second.shots = options.shots;
+  second.shots[1].dissolve_frames = 0;
+  FilmState film, alone, cut;
+  for (int number = 0; number < film_frames; ++number) {
+    const auto picture = [&](const RotoscopeFilmOptions& of, FilmState& state) {
+      StereoPair eyes = eyes_of_frame(number);
+      StereoFrame frame{std::move(eyes.left), std::move(eyes.right), number, {1, 25}, 1};
+      return paint_film_frame(frame, of, true, state, {}).picture;
+    };
+    const Image<Rgb8> made = picture(options, film), from = picture(first, alone), to = picture(second, cut);
+    const int share = number < 3 ? 0 : std::min(number - 2, 4);
+    int farthest = 0;
+    for (std::size_t i = 0; i < made.pixels().size(); ++i) {
+      const Rgb8 a = from.pixels()[i], b = to.pixels()[i], is = made.pixels()[i];
+      const auto off = [&](int before, int after, int now) {
+        return std::abs(4 * now - (number < 3 ? 4 * after : (4 - share) * before + share * after));
+      };
+      farthest = std::max({farthest, off(a.r, b.r, is.r), off(a.g, b.g, is.g), off(a.b, b.b, is.b)});
+    }
+    EXPECT_LE(farthest, 2) << number << ": rounded to the nearest level";
+    EXPECT_EQ(film.outgoing.has_value(), number >= 3 && number < 6) << number;
   }
 }
 

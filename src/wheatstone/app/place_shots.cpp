@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <limits>
 
 #include "wheatstone/error.h"
 #include "wheatstone/video/film_time.h"
@@ -21,7 +22,11 @@ struct Place {
 /// Where a shot begins, and where its keys lie.
 struct ShotPlace : Place {
   std::vector<Place> keys;
+  Place dissolved;  ///< the first frame that belongs to the shot alone
 };
+
+/// The frame before which the last shot ends: it lasts as long as the film.
+constexpr std::int64_t no_end = std::numeric_limits<std::int64_t>::max();
 
 /// Takes the frame, if it is the first that fits.
 void look(const WrittenFrame& wanted, std::int64_t number, const StereoFrame& frame, Place& place) {
@@ -34,15 +39,23 @@ void look(const WrittenFrame& wanted, std::int64_t number, const StereoFrame& fr
   if (fits) place = {number, frame.pts, seconds_of(frame)};
 }
 
+/// The first frame after the dissolve of a shot that begins at `place`.
+WrittenFrame end_of_dissolve(const WrittenShot& shot, const Place& place) {
+  if (!shot.dissolve) return *place.frame;
+  if (const auto* const frames = std::get_if<std::int64_t>(&*shot.dissolve)) return *place.frame + *frames;
+  return place.seconds + std::get<double>(*shot.dissolve);
+}
+
 bool is_found(const ShotPlace& place) {
-  return place.frame && std::ranges::all_of(place.keys, [](const Place& key) { return key.frame.has_value(); });
+  return place.frame && place.dissolved.frame &&
+         std::ranges::all_of(place.keys, [](const Place& key) { return key.frame.has_value(); });
 }
 
 /// Goes through a film until all shots have begun, and ended where they say so, and all keys have been met.
 std::vector<ShotPlace> find_places(std::span<const WrittenShot> shots, StereoFilmReader film,
                                    const Progress& progress) {
   std::vector<ShotPlace> places;
-  for (const WrittenShot& shot : shots) places.push_back({{}, std::vector<Place>(shot.keys.size())});
+  for (const WrittenShot& shot : shots) places.push_back({{}, std::vector<Place>(shot.keys.size()), {}});
   std::int64_t last = 1, frames = 0;
   for (const WrittenShot& shot : shots) last = std::max(last, shot.last.value_or(1));
   // One frame more tells whether the film goes on.
@@ -54,6 +67,7 @@ std::vector<ShotPlace> find_places(std::span<const WrittenShot> shots, StereoFil
       look(shots[i].begin, frames, frame, places[i]);
       for (std::size_t key = 0; key < shots[i].keys.size(); ++key)
         look(shots[i].keys[key].at, frames, frame, places[i].keys[key]);
+      if (places[i].frame) look(end_of_dissolve(shots[i], places[i]), frames, frame, places[i].dissolved);
     }
   }
   for (std::size_t i = 0; i < shots.size(); ++i) {
@@ -64,6 +78,10 @@ std::vector<ShotPlace> find_places(std::span<const WrittenShot> shots, StereoFil
       if (!places[i].keys[key].frame)
         throw Error(ErrorKind::bad_input, fmt::format("{}: lies beyond the end of the film, which has {} frames",
                                                       shots[i].keys[key].where, frames));
+    if (!places[i].dissolved.frame)
+      throw Error(
+          ErrorKind::bad_input,
+          fmt::format("{}: its dissolve does not end before the film, which has {} frames", shots[i].where, frames));
     if (shots[i].last.value_or(1) > frames)
       throw Error(ErrorKind::bad_input, fmt::format("{}: ends with frame {}, but the film has {} frames",
                                                     shots[i].where, *shots[i].last, frames));
@@ -101,15 +119,26 @@ void check_order(std::span<const WrittenShot> shots, std::span<const ShotPlace> 
   }
 }
 
+/// A dissolve must end within its shot, before `end`.
+void check_dissolve(const WrittenShot& shot, const ShotPlace& place, std::int64_t end) {
+  if (shot.dissolve && place.frame == 1)
+    throw Error(ErrorKind::bad_input,
+                fmt::format("{}: begins with a dissolve, but there is no shot before it", shot.where));
+  if (*place.dissolved.frame > end)
+    throw Error(ErrorKind::bad_input,
+                fmt::format("{}: its dissolve goes on to frame {}, but the shot ends with frame {}", shot.where,
+                            *place.dissolved.frame - 1, end - 1));
+}
+
 /// Keys must lie in their shot, which ends before `end`, one after the other.
-void check_keys(const WrittenShot& shot, const ShotPlace& place, std::optional<std::int64_t> end) {
+void check_keys(const WrittenShot& shot, const ShotPlace& place, std::int64_t end) {
   for (std::size_t i = 0; i < shot.keys.size(); ++i) {
     const std::int64_t at = *place.keys[i].frame;
-    if (at < *place.frame || (end && at >= *end))
+    if (at < *place.frame || at >= end)
       throw Error(
           ErrorKind::bad_input,
           fmt::format("{}: lies at frame {}, outside its shot, which begins with frame {}{}", shot.keys[i].where, at,
-                      *place.frame, end ? fmt::format(" and ends with frame {}", *end - 1) : ""));
+                      *place.frame, end < no_end ? fmt::format(" and ends with frame {}", end - 1) : ""));
     if (i > 0 && at <= *place.keys[i - 1].frame)
       throw Error(ErrorKind::bad_input,
                   fmt::format("{}: lies at frame {}, expected a later one than {}, where the key before it lies",
@@ -133,10 +162,13 @@ std::vector<MovingParameter> moving_parameters(const WrittenShot& shot, const Sh
 std::vector<FilmShot> shots_at(std::span<const WrittenShot> shots, std::span<const ShotPlace> places) {
   std::vector<FilmShot> placed;
   for (std::size_t i = 0; i < shots.size(); ++i) {
-    check_keys(shots[i], places[i], i + 1 < shots.size() ? places[i + 1].frame : std::nullopt);
+    const std::int64_t end = i + 1 < shots.size() ? *places[i + 1].frame : no_end;
+    check_dissolve(shots[i], places[i], end);
+    check_keys(shots[i], places[i], end);
     FilmShot& shot = placed.emplace_back(shots[i].painted);
     shot.begin = *places[i].frame - 1;
     shot.moving = moving_parameters(shots[i], places[i]);
+    shot.dissolve_frames = *places[i].dissolved.frame - *places[i].frame;
   }
   return placed;
 }
@@ -162,9 +194,13 @@ std::vector<FilmShot> place_shots(std::span<const WrittenShot> shots, const Film
     report(progress, "looking for the shots", 0);
     const std::size_t before = shot;
     while (shot + 1 < shots.size() && places[shot + 1].pts <= frame.pts) ++shot;
-    if (number > 0 && shot == before) continue;
-    placed.push_back(in_whole[shot]);
-    placed.back().begin = number;
+    if (number == 0 || shot != before) {
+      placed.push_back(in_whole[shot]);
+      placed.back().begin = number;
+      placed.back().dissolve_frames = 0;
+    }
+    // Nothing is known of a shot that ends before the part begins.
+    if (placed.size() > 1 && frame.pts < places[shot].dissolved.pts) ++placed.back().dissolve_frames;
   }
   return placed;
 }

@@ -8,13 +8,13 @@
 #include <system_error>
 
 #include "wheatstone/app/film_output_internal.h"
+#include "wheatstone/app/paint_film_frame_internal.h"
 #include "wheatstone/app/painted_film.h"
 #include "wheatstone/app/passed_frames_internal.h"
 #include "wheatstone/app/rotoscope_state_file_internal.h"
 #include "wheatstone/error.h"
 #include "wheatstone/files/struct_fields.h"
 #include "wheatstone/marks/painting_file.h"
-#include "wheatstone/video/film_time.h"
 #include "wheatstone/video/segmented_film.h"
 #include "wheatstone/video/work_folder.h"
 
@@ -45,23 +45,6 @@ void check_twos(const RotoscopeFilmOptions& options) {
                             options.frames_between_checkpoints));
 }
 
-/// A frame that may be shown again.
-struct ShownFrame {
-  PlannedFilmFrame planned;
-  Image<Rgb8> picture;  ///< as frame_of has it; empty in a plan
-};
-
-Frame again(const ShownFrame& shown, const StereoFrame& source) {
-  return {shown.picture, source.pts, source.time_base, source.duration};
-}
-
-/// A painted frame in one picture, and when it is shown.
-Frame frame_of(FramePictures pictures, const StereoFrame& source, const RotoscopeFilmOptions& options) {
-  const StereoLayout layout = options.right_film.empty() ? options.writing.layout : StereoLayout::left_right;
-  return {picture_in_film(std::move(pictures), layout, options.anaglyph), source.pts, source.time_base,
-          source.duration};
-}
-
 /// "painting frame 12 of 240, 2.10 a second".
 std::string step_text(std::int64_t frame, std::int64_t expected, std::int64_t done_before, double seconds) {
   const auto painted = static_cast<double>(frame - done_before);
@@ -81,29 +64,12 @@ void add(const RotoscopeTimes& times, const PaintingTimes& painting, RotoscopedF
 
 void add(const PlannedFilmFrame& frame, RotoscopedFilm& film) { add(frame.times, frame.painting_times, film); }
 
-/// Plans a frame that was read, or paints it: `make` is plan_film_frame or rotoscope_frame. The frame's pictures are
-/// for reading the next one into.
-template <class Make>
-auto make_frame_of(Make make, StereoFrame& frame, const RotoscopeFilmOptions& options, RotoscopeState& state,
-                   const Progress& progress) {
-  StereoPair eyes{std::move(frame.left), std::move(frame.right)};
-  std::optional<KnownFrame> known;
-  if (options.known) known = options.known(state.frames, eyes.left);
-  if (known && known->flow && !options.ranks.alone())
-    throw Error(ErrorKind::wrong_usage, "frames whose flow is known are painted in one process, not under mpirun");
-  auto made = make(eyes, options_of_frame(options.frames, options.shots, state.frames, seconds_of(frame)), state,
-                   known ? &*known : nullptr, progress);
-  frame.left = std::move(eyes.left);
-  frame.right = std::move(eyes.right);
-  return made;
-}
-
 std::string note_of(std::int64_t frame, const std::string& rows_note) {
   return fmt::format("from frame {} on, {}", frame, rows_note);
 }
 
 RotoscopedFilm paint_frames(StereoFilmReader& source, FilmOutput& output, const RotoscopeFilmOptions& options,
-                            const Progress& progress, RotoscopeState& state) {
+                            const Progress& progress, FilmState& state) {
   RotoscopedFilm film;
   film.resumed_frames = source.skip(output.frames_done());
   if (film.resumed_frames > 0) report(progress, "resuming", 0);
@@ -111,7 +77,7 @@ RotoscopedFilm paint_frames(StereoFilmReader& source, FilmOutput& output, const 
   const auto start = std::chrono::steady_clock::now();
   const double processor_start = processor_seconds();
   film.frames = film.resumed_frames;
-  ShownFrame shown;
+  PaintedFilmFrame shown;
   for (StereoFrame frame; source.read(frame); ++film.frames) {
     const std::string text = step_text(film.frames, expected, film.resumed_frames, seconds_since(start));
     const double share =
@@ -119,28 +85,19 @@ RotoscopedFilm paint_frames(StereoFilmReader& source, FilmOutput& output, const 
     // The steps within a frame are asked only whether to go on.
     const Progress within = [&](std::string_view, double) { report(progress, text, share); };
     within("", 0);
-    const auto keep = [&](const PlannedFilmFrame& made) {
-      output.write_marks(made, frame, state);
-      add(made, film);
-      if (!made.rows_note.empty()) film.notes.push_back(note_of(film.frames, made.rows_note));
-    };
-    if (is_repeated(options, state.frames)) {
-      repeat_film_frame(shown.planned, state);
-      output.write_marks(shown.planned, frame, state);
-      if (!output.is_plan()) output.write(again(shown, frame), state);
-    } else if (output.is_plan()) {
-      shown.planned = make_frame_of(plan_film_frame, frame, options, state, within);
-      keep(shown.planned);
+    if (is_repeated(options, state.shot.frames)) {
+      repeat_film_frame(shown, state);
     } else {
-      RotoscopedFrame painted = make_frame_of(rotoscope_frame, frame, options, state, within);
-      keep(painted);
-      Frame made = frame_of(std::move(painted.pictures), frame, options);
-      if (options.on_twos) shown = {std::move(painted), made.picture};
-      output.write(std::move(made), state);
+      shown = paint_film_frame(frame, options, !output.is_plan(), state, within);
+      add(shown.shot, film);
+      if (shown.outgoing) add(*shown.outgoing, film);
+      if (!shown.shot.rows_note.empty()) film.notes.push_back(note_of(film.frames, shown.shot.rows_note));
     }
+    output.write_marks(shown, frame, state);
+    if (!output.is_plan()) output.write(frame_at(shown.picture, frame), state);
   }
   if (film.frames == 0) throw Error(ErrorKind::wrong_usage, "the film has no frame in the requested time range");
-  film.totals = state.totals;
+  film.totals = state.shot.totals;
   film.seconds = seconds_since(start);
   film.core_seconds = processor_seconds() - processor_start;
   return film;
@@ -177,11 +134,11 @@ class SharedWork {
         passed_(work_folder_of(path), output != nullptr) {}
 
   /// At the first rank, `state` is the state after the frames that are done; it becomes the state after the last frame.
-  RotoscopedFilm paint(RotoscopeState& state) {
+  RotoscopedFilm paint(FilmState& state) {
     if (options_.scenes.frames == 0)
       throw Error(ErrorKind::wrong_usage, "the film has no frame in the requested time range");
     const double processor_start = processor_seconds();
-    before_ = state.totals;
+    before_ = state.shot.totals;
     for (const ScenePart& part : parts_)
       if (part.rank == options_.ranks.rank()) paint_part(part, state);
     // Until the last rank has painted its last frame.
@@ -190,7 +147,7 @@ class SharedWork {
     if (output_ != nullptr) read_to_the_end();
     film_.frames = options_.scenes.frames;
     film_.resumed_frames = done_;
-    film_.totals = state.totals;
+    film_.totals = state.shot.totals;
     film_.seconds = seconds_since(start_);
     film_.core_seconds = processor_seconds() - processor_start;
     add_up_times();
@@ -198,60 +155,61 @@ class SharedWork {
   }
 
  private:
-  void paint_part(const ScenePart& part, RotoscopeState& written) {
+  void paint_part(const ScenePart& part, FilmState& written) {
     read_ += source_.skip(part.begin - read_);
-    RotoscopeState state;
+    FilmState state;
     const bool goes_on = part.begin == done_ && !std::ranges::binary_search(options_.scenes.begins, done_);
-    if (goes_on) state = read_rotoscope_state(state_file(path_, done_));
-    state.frames = part.begin;
-    state.totals = {};
-    ShownFrame shown;
+    if (goes_on) state = read_film_state(state_file(path_, done_));
+    state.shot.frames = part.begin;
+    state.shot.totals = {};
+    PaintedFilmFrame shown;
     for (StereoFrame frame; read_ < part.end; ++read_) {
       if (!source_.read(frame))
         throw Error(ErrorKind::bad_input, fmt::format("the film ended after {} frames, expected {} as at first", read_,
                                                       options_.scenes.frames));
-      const Progress within = [&](std::string_view, double) { tell(written.frames); };
+      const Progress within = [&](std::string_view, double) { tell(written.shot.frames); };
       within("", 0);
-      if (is_repeated(options_, state.frames)) {
-        repeat_film_frame(shown.planned, state);
-        pass(shown.planned, again(shown, frame), {}, state);
+      std::string note;
+      if (is_repeated(options_, state.shot.frames)) {
+        repeat_film_frame(shown, state);
       } else {
-        RotoscopedFrame painted = make_frame_of(rotoscope_frame, frame, options_, state, within);
-        add(painted, film_);
-        Frame made = frame_of(std::move(painted.pictures), frame, options_);
-        if (options_.on_twos) shown = {painted, made.picture};
-        pass(painted, std::move(made), painted.rows_note, state);
+        shown = paint_film_frame(frame, options_, true, state, within);
+        add(shown.shot, film_);
+        if (shown.outgoing) add(*shown.outgoing, film_);
+        note = shown.shot.rows_note;
       }
+      pass(shown, frame, note, state);
       write_what_came(written);
       meet_now_and_then();
     }
   }
 
-  void pass(const PlannedFilmFrame& planned, Frame frame, const std::string& note, const RotoscopeState& state) {
+  void pass(const PaintedFilmFrame& painted, const StereoFrame& frame, const std::string& note,
+            const FilmState& state) {
+    const std::int64_t number = state.shot.frames;
     if (const fs::path marks = marks_of(path_, options_); !marks.empty())
-      write_painting(unfinished_marks(marks, state.frames), planned.painting);
-    PassedFrame passed{std::move(frame), state.totals, note};
+      write_painting(unfinished_marks(marks, number), painted.shot.painting);
+    PassedFrame passed{frame_at(painted.picture, frame), state.shot.totals, note};
     if (!makes_film()) passed.frame.picture = {};
-    if (has_state(state.frames)) write_rotoscope_state(passed_.state_file(state.frames), state);
-    passed_.put(state.frames, passed);
+    if (has_state(number)) write_film_state(passed_.state_file(number), state);
+    passed_.put(number, passed);
   }
 
   /// At the first of the ranks: brings the film as far as frames have come.
-  void write_what_came(RotoscopeState& state) {
+  void write_what_came(FilmState& state) {
     if (output_ == nullptr) return;
-    while (const std::optional<PassedFrame> passed = passed_.take(state.frames + 1)) {
-      const std::int64_t number = state.frames + 1;
+    while (const std::optional<PassedFrame> passed = passed_.take(state.shot.frames + 1)) {
+      const std::int64_t number = state.shot.frames + 1;
       if (number > parts_[part_].end) {
-        before_ = state.totals;
+        before_ = state.shot.totals;
         ++part_;
       }
       if (has_state(number)) {
-        state = read_rotoscope_state(passed_.state_file(number));
-        std::error_code ignored;
-        fs::remove(passed_.state_file(number), ignored);
+        state = read_film_state(passed_.state_file(number));
+        remove_film_state(passed_.state_file(number));
       }
-      state.frames = number;
-      state.totals = together(before_, passed->totals);
+      state.shot.frames = number;
+      state.shot.totals = together(before_, passed->totals);
       if (!passed->rows_note.empty()) film_.notes.push_back(note_of(number - 1, passed->rows_note));
       output_->write(passed->frame, state);
       tell(number);
@@ -367,7 +325,7 @@ RotoscopedFilm rotoscope_film(StereoFilmReader& source, const fs::path& output, 
   std::optional<FilmOutput> out;
   if (options.ranks.first()) out.emplace(output, options);
   // A damaged state is reported but not removed: the user decides.
-  RotoscopeState state = out ? out->state() : RotoscopeState();
+  FilmState state = out ? out->state() : FilmState();
   RotoscopedFilm film;
   bool painted = false;
   try {

@@ -41,7 +41,8 @@ struct RotoscopeFilmOptions {
   /// Returns what is known of a frame, counted from 0; empty: nothing is known.
   std::function<KnownFrame(std::int64_t frame, const Image<Rgb8>& left)> known;
   /// Several ranks paint the film together: each paints whole scenes, and the first writes the film, with the same
-  /// bytes. In this case `scenes` are the film's (find_scenes), or its shots, and `known` gives no flow.
+  /// bytes. In this case `scenes` are the film's (find_scenes), or begin with cuts_of its shots, and `known`
+  /// gives no flow.
   Ranks ranks;
   FilmScenes scenes;
 };

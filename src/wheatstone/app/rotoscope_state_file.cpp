@@ -83,6 +83,8 @@ class Check {
   const Image<Rgb8>& planned_;
 };
 
+std::filesystem::path outgoing_file(const std::filesystem::path& state) { return state.string() + "_outgoing"; }
+
 }  // namespace
 
 std::string rotoscope_state_with_checksum(std::string_view members) {
@@ -102,6 +104,24 @@ void write_rotoscope_state(const std::filesystem::path& path, const RotoscopeSta
 
 RotoscopeState read_rotoscope_state(const std::filesystem::path& path) {
   return decode_rotoscope_state(read_whole_file(path, std::numeric_limits<std::size_t>::max()), path.string());
+}
+
+void write_film_state(const std::filesystem::path& path, const FilmState& state) {
+  if (state.outgoing) write_rotoscope_state(outgoing_file(path), *state.outgoing);
+  write_rotoscope_state(path, state.shot);
+}
+
+FilmState read_film_state(const std::filesystem::path& path) {
+  FilmState state{read_rotoscope_state(path), std::nullopt};
+  std::error_code ignored;
+  if (std::filesystem::exists(outgoing_file(path), ignored)) state.outgoing = read_rotoscope_state(outgoing_file(path));
+  return state;
+}
+
+void remove_film_state(const std::filesystem::path& path) {
+  std::error_code ignored;
+  std::filesystem::remove(path, ignored);
+  std::filesystem::remove(outgoing_file(path), ignored);
 }
 
 }  // namespace wheatstone

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -24,5 +25,20 @@ void write_rotoscope_state(const std::filesystem::path& path, const RotoscopeSta
 
 /// Throws Error{bad_input}.
 RotoscopeState read_rotoscope_state(const std::filesystem::path& path);
+
+/// The state of a film between frames: that of its shot, and that of the shot that dissolves into it.
+struct FilmState {
+  RotoscopeState shot;
+  std::optional<RotoscopeState> outgoing;
+};
+
+/// Writes the file, and another one beside it for a shot that fades out. Throws Error{cannot_read_write}.
+void write_film_state(const std::filesystem::path& path, const FilmState& state);
+
+/// Throws Error{bad_input}.
+FilmState read_film_state(const std::filesystem::path& path);
+
+/// Removes what write_film_state wrote, if it is there.
+void remove_film_state(const std::filesystem::path& path);
 
 }  // namespace wheatstone

@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 6> keys_of_shots{"begin",        "last",          "style",
+constexpr std::array<std::string_view, 7> keys_of_shots{"begin",        "last",          "dissolve", "style",
                                                         "depth-budget", "zero-parallax", "key"};
 
 /// The rows of an array of tables, each with its name, as "shots.toml: shot 2".
@@ -49,6 +49,8 @@ class ShotTable {
         .painted = {.style = own.style, .depth_budget = own.depth_budget, .zero_parallax_px = own.zero_parallax_px},
         .where = at(table_)};
     if (const toml::node* last = table_.get("last")) shot.last = frame("last", *last);
+    if (const toml::node* dissolve = table_.get("dissolve"))
+      shot.dissolve = frame_or_time("dissolve", *dissolve, "a number of frames, or a time, as \"0.5\"");
     const toml::node* const keys = table_.get("key");
     if (keys == nullptr) return shot;
     if (!keys->is_array()) refuse("key", *keys, "[[shot.key]] tables");
@@ -137,11 +139,11 @@ class ShotTable {
     return found == style_parameters().end() ? nullptr : &*found;
   }
 
-  std::int64_t frame(std::string_view key, const toml::node& node) const {
+  std::int64_t frame(std::string_view key, const toml::node& node,
+                     std::string_view expected = "a frame, counted from 1") const {
     constexpr std::int64_t most_frames = 1'000'000'000;
     const auto* number = node.as_integer();
-    if (number == nullptr || number->get() < 1 || number->get() > most_frames)
-      refuse(key, node, "a frame, counted from 1");
+    if (number == nullptr || number->get() < 1 || number->get() > most_frames) refuse(key, node, expected);
     return number->get();
   }
 
@@ -149,10 +151,14 @@ class ShotTable {
     const toml::node* node = table_.get(key);
     if (node == nullptr)
       throw Error(ErrorKind::bad_input, fmt::format("{}: has no '{}', expected {}, or a time", at(table_), key, what));
-    if (node->is_integer()) return frame(key, *node);
-    const auto* text = node->as_string();
+    return frame_or_time(key, *node, "a frame, counted from 1, or a time, as \"0:02.5\"");
+  }
+
+  WrittenFrame frame_or_time(std::string_view key, const toml::node& node, std::string_view expected) const {
+    if (node.is_integer()) return frame(key, node, expected);
+    const auto* text = node.as_string();
     const std::optional<double> seconds = text != nullptr ? film_time_from(text->get()) : std::nullopt;
-    if (!seconds) refuse(key, *node, "a frame, counted from 1, or a time, as \"0:02.5\"");
+    if (!seconds) refuse(key, node, expected);
     return *seconds;
   }
 
@@ -234,8 +240,9 @@ std::string shots_file_text(std::span<const FoundShot> shots) {
       "# [[shot]] to add a cut, and delete one to remove its cut. `begin` is the first frame, counted from 1, or a\n"
       "# time, as \"0:02.5\". What a shot does not set is as on the command line. A shot takes `style`, all "
       "parameters\n"
-      "# of its style, `depth-budget`, `zero-parallax`, and `last`, its last frame, if that is to be checked. A\n"
-      "# [[shot.key]] after it gives numbers `at` a frame or time, between which they move.\n";
+      "# of its style, `depth-budget`, `zero-parallax`, and `last`, its last frame, if that is to be checked. The\n"
+      "# shot before it fades out in its first `dissolve` frames. A [[shot.key]] after it gives numbers `at` a frame\n"
+      "# or time, between which they move.\n";
   for (std::size_t i = 0; i < shots.size(); ++i) {
     const FoundShot& shot = shots[i];
     text += fmt::format(

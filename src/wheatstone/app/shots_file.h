@@ -45,8 +45,9 @@ struct WrittenKey {
 /// A shot as a shots file has it.
 struct WrittenShot {
   WrittenFrame begin;
-  std::optional<std::int64_t> last;  ///< last frame, to be checked
-  FilmShot painted;                  ///< its `begin` and what moves are not known yet
+  std::optional<std::int64_t> last;      ///< last frame, to be checked
+  std::optional<WrittenFrame> dissolve;  ///< how many frames, or seconds, the shot before fades out over
+  FilmShot painted;                      ///< its `begin` and what moves are not known yet
   std::vector<WrittenKey> keys = {};
   std::string where;  ///< for messages: "shots.toml: shot 2, line 14"
 };

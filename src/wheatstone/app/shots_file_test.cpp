@@ -216,6 +216,37 @@ TEST_F(PlacedShots, HaveTheirKeysAtTheTimesOfFrames) {
   }
 }
 
+TEST_F(PlacedShots, DissolveForFramesOrSeconds) {
+  const std::string toml =
+      "[[shot]]\nbegin = 1\n[[shot]]\nbegin = 6\ndissolve = 4\n[[shot]]\nbegin = 13\ndissolve = \"0.2\"\n";
+  const auto dissolves = [&](const FilmReaderOptions& reading) {
+    std::vector<std::int64_t> frames;
+    for (const FilmShot& shot : placed(toml, reading)) frames.push_back(shot.dissolve_frames);
+    return frames;
+  };
+  EXPECT_THAT(dissolves({}), ElementsAre(0, 4, 5));
+  EXPECT_THAT(dissolves({.every = 2}), ElementsAre(0, 2, 3));
+  EXPECT_THAT(dissolves({.from_s = 0.24}), ElementsAre(0, 5)) << "the first shot is not painted";
+  const std::vector<FilmShot> shots = placed(toml);
+  EXPECT_THAT(cuts_of(shots), ElementsAre(0));
+  EXPECT_FALSE(dissolve_at(shots, 4));
+  EXPECT_EQ(dissolve_at(shots, 5)->outgoing, &shots[0]);
+  EXPECT_FLOAT_EQ(dissolve_at(shots, 5)->share, 0.2f);
+  EXPECT_FLOAT_EQ(dissolve_at(shots, 8)->share, 0.8f);
+  EXPECT_FALSE(dissolve_at(shots, 9));
+}
+
+TEST_F(PlacedShots, WhoseDissolvesDoNotFitAreRefused) {
+  const std::string first = "[[shot]]\nbegin = 1\n";
+  expect_refused(first + "dissolve = 3\n",
+                 "s.toml: shot 1, line 1: begins with a dissolve, but there is no shot before");
+  expect_refused(first + "[[shot]]\nbegin = 6\ndissolve = 5\n[[shot]]\nbegin = 10\n",
+                 "s.toml: shot 2, line 3: its dissolve goes on to frame 10, but the shot ends with frame 9");
+  expect_refused(first + "[[shot]]\nbegin = 18\ndissolve = 3\n",
+                 "its dissolve does not end before the film, which has 20");
+  expect_refused(first + "[[shot]]\nbegin = 6\ndissolve = 0.5\n", "line 5: 'dissolve' is not a number of frames, or a");
+}
+
 TEST_F(PlacedShots, WhoseKeysDoNotFitAreRefused) {
   const std::string shots = "[[shot]]\nbegin = 1\n[[shot]]\nbegin = 6\nlast = 9\n", end = "[[shot]]\nbegin = 10\n";
   const auto key = [](const std::string& at) { return "[[shot.key]]\nat = " + at + "\ndry = 0.5\n"; };

@@ -1,0 +1,62 @@
+#include <utility>
+
+#include "wheatstone/app/paint_film_frame_internal.h"
+#include "wheatstone/error.h"
+#include "wheatstone/video/film_time.h"
+
+namespace wheatstone {
+namespace {
+
+/// The shot whose frame this still is, although the next one has begun.
+void follow_dissolve(const RotoscopeFilmOptions& options, FilmState& state) {
+  const std::optional<Dissolve> dissolve = dissolve_at(options.shots, state.shot.frames);
+  if (!dissolve) {
+    state.outgoing.reset();
+  } else if (begins_shot(options.shots, state.shot.frames)) {
+    state.outgoing = state.shot;
+  }
+}
+
+}  // namespace
+
+PaintedFilmFrame paint_film_frame(StereoFrame& frame, const RotoscopeFilmOptions& options, bool draws, FilmState& state,
+                                  const Progress& progress) {
+  StereoPair eyes{std::move(frame.left), std::move(frame.right)};
+  const std::int64_t number = state.shot.frames;
+  const double at_s = seconds_of(frame);
+  std::optional<KnownFrame> known;
+  if (options.known) known = options.known(number, eyes.left);
+  if (known && known->flow && !options.ranks.alone())
+    throw Error(ErrorKind::wrong_usage, "frames whose flow is known are painted in one process, not under mpirun");
+  const auto paint = [&](const RotoscopeOptions& of_frame, RotoscopeState& of_shot) {
+    if (draws) return rotoscope_frame(eyes, of_frame, of_shot, known ? &*known : nullptr, progress);
+    return RotoscopedFrame{plan_film_frame(eyes, of_frame, of_shot, known ? &*known : nullptr, progress), {}};
+  };
+  const StereoLayout layout = options.right_film.empty() ? options.writing.layout : StereoLayout::left_right;
+  const auto picture_of = [&](RotoscopedFrame& painted) {
+    return picture_in_film(std::move(painted.pictures), layout, options.anaglyph);
+  };
+  follow_dissolve(options, state);
+  PaintedFilmFrame made;
+  if (const std::optional<Dissolve> dissolve = dissolve_at(options.shots, number)) {
+    made.outgoing = paint(options_of_shot(options.frames, *dissolve->outgoing, at_s), *state.outgoing);
+    made.share = dissolve->share;
+  }
+  made.shot = paint(options_of_frame(options.frames, options.shots, number, at_s), state.shot);
+  if (draws) made.picture = picture_of(made.shot);
+  if (draws && made.outgoing) dissolve_from(picture_of(*made.outgoing), made.share, made.picture);
+  frame.left = std::move(eyes.left);
+  frame.right = std::move(eyes.right);
+  return made;
+}
+
+void repeat_film_frame(const PaintedFilmFrame& before, FilmState& state) {
+  repeat_film_frame(before.shot, state.shot);
+  if (before.outgoing && state.outgoing) repeat_film_frame(*before.outgoing, *state.outgoing);
+}
+
+Frame frame_at(Image<Rgb8> picture, const StereoFrame& source) {
+  return {std::move(picture), source.pts, source.time_base, source.duration};
+}
+
+}  // namespace wheatstone
