@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "film_mask_argument.h"
 #include "wheatstone/app/film_scenes.h"
 #include "wheatstone/app/list_shots.h"
 #include "wheatstone/app/place_shots.h"
@@ -39,6 +40,7 @@ std::vector<FilmShot> shots_from(const ShotsArguments& arguments, const FilmFile
   std::string no_budget, no_plane;
   if (limited.of_marks) no_budget = no_plane = "on marks (.wst); they have the depth of the film";
   if (limited.of_one_eye) no_budget = no_plane = "on a film of one eye";
+  if (options.mask) no_budget = no_plane = keeps_depth_in_masks;
   if (options.frames.display) no_budget = "with --display; --span sets how deep it looks";
   std::vector<UnusedKey> unused;
   if (!no_budget.empty()) unused.push_back({"depth-budget", no_budget});

@@ -95,8 +95,8 @@ std::vector<std::string> names_of_shorter(const std::vector<MeasuredFilm>& films
   return names;
 }
 
-fs::path truth_file(const MeasureFilmArguments& arguments, const char* name, int frame, const char* ending) {
-  return fs::path(arguments.truth) / fmt::format("{}_{:04}{}", name, frame, ending);
+fs::path truth_file(const MeasureFilmArguments& arguments, const char* name, int frame, const char* extension) {
+  return fs::path(arguments.truth) / fmt::format("{}_{:04}{}", name, frame, extension);
 }
 
 template <class Picture>

@@ -11,18 +11,10 @@
 #include <vector>
 
 #include "commands.h"
-#include "depth_argument.h"
 #include "device_option.h"
-#include "display_argument.h"
 #include "film_argument.h"
-#include "film_plan_run.h"
-#include "film_shots_run.h"
-#include "match_options.h"
-#include "stereo_arguments.h"
-#include "style_options.h"
-#include "wheatstone/app/eyes_in_film.h"
+#include "rotoscope_arguments.h"
 #include "wheatstone/app/painted_film.h"
-#include "wheatstone/app/rotoscope_film.h"
 #include "wheatstone/error.h"
 #include "wheatstone/files/output_paths.h"
 #include "wheatstone/motion/flow_file.h"
@@ -35,28 +27,6 @@ namespace wheatstone::cli {
 namespace {
 
 namespace fs = std::filesystem;
-
-struct RotoscopeArguments {
-  Given given;
-  std::string film, right;
-  std::string output = "painted.mp4";
-  std::optional<StereoLayout> layout;
-  EyesInFilm output_layout;
-  std::optional<double> from_s, to_s;
-  int frame_step = 1;
-  std::optional<Rational> rate;
-  std::string truth;
-  DisplayArguments display;
-  std::string flow_values = "255";
-  DepthArguments depth;
-  PlanArguments plan;
-  ShotsArguments shots;
-  RotoscopeFilmOptions options;
-  MatchArguments matching;
-  StyleArguments style;
-};
-
-bool writes_marks(const RotoscopeArguments& arguments) { return fs::path(arguments.output).extension() == ".wst"; }
 
 /// A frame of a film that `synth film` made.
 KnownFrame read_known_frame(const fs::path& folder, std::int64_t frame) {
@@ -245,11 +215,11 @@ FilmFiles films_from(const RotoscopeArguments& arguments) {
   FilmFiles film = find_film(arguments.film, layout);
   if (!arguments.right.empty()) film = {arguments.film, arguments.right, {}};
   const fs::path depth = arguments.depth.file, model = arguments.depth.model;
-  const fs::path shots = arguments.shots.file;
+  const fs::path shots = arguments.shots.file, mask = arguments.mask.file;
   for (const fs::path& output : {fs::path(arguments.output), arguments.options.right_film})
     if (!output.empty())
-      check_not_an_input(output,
-                         std::array{film.film, film.right, depth, model, arguments.options.frames.flow_model, shots});
+      check_not_an_input(
+          output, std::array{film.film, film.right, depth, model, arguments.options.frames.flow_model, shots, mask});
   return film;
 }
 
@@ -330,6 +300,7 @@ Report run_rotoscope(const RotoscopeArguments& given, const Session& session) {
   const bool has_one_eye = !has_depth(arguments.depth) && source.layout() == StereoLayout::mono && film.right.empty();
   if (has_depth(arguments.depth)) take_depth(arguments, film, source, options);
   if (has_one_eye) refuse_for_one_eye(arguments, film);
+  take_mask(arguments.mask, film, source, session, options);
   if (!arguments.shots.file.empty())
     options.shots = shots_from(arguments.shots, film, options, {writes_marks(arguments), has_one_eye}, session);
   if (session.verbose && film.right.empty())
@@ -349,137 +320,6 @@ Report run_rotoscope(const RotoscopeArguments& given, const Session& session) {
   return session.ranks.first() ? report_of(arguments, result, session) : Report();
 }
 
-Rows film_rows(RotoscopeArguments& a) {
-  const Rows source{
-      row("--layout", film_layout(a.layout),
-          "Stereo layout of the film: sbs, sbs-half, tb, tb-half, mono, …; by default from its metadata, or else "
-          "estimated from the pictures"),
-      row("--output-layout", parsed(a.output_layout, find_eyes_in_film),
-          "Stereo layout of the painted film, such as sbs-half for televisions, or anaglyph, or a kind of anaglyph, or "
-          "two-files, a film for each eye; that of the source by default",
-          {when([&a] { return !a.display.name.empty(); }, "with --display; it works where two eyes are painted")}),
-      projection_row(a.options.writing,
-                     {when([&a] { return !a.display.name.empty(); }, "with --display; its films lie on no sphere")}),
-      row("--from", parsed(a.from_s, parse_time_s), "Start time: seconds or [HH:]MM:SS"),
-      row("--to", parsed(a.to_s, parse_time_s), "End time: seconds or [HH:]MM:SS"),
-      row("--rate", parsed(a.rate, parse_frame_rate),
-          "Frames per second of numbered pictures, for example 25 or 24000/1001; 24 by default"),
-      row("--frame-step", number(a.frame_step, {1, 1'000'000}), "Paint every Nth frame only")};
-  const Rows marks{row("--save-marks", text(a.options.marks), "Also write the marks of each frame: marks_%04d.wst",
-                       {when([&a] { return !a.options.plan.empty(); }, "with --plan, which has the marks")})};
-  const Rows damaged{row("--keep-going", flag(a.options.keep_going),
-                         "Paint the frames of a damaged film that can be decoded, without an error at the end")};
-  return under("Film", join({source, film_coding_rows(a.options.writing), side_stream_rows(a.options.writing), marks,
-                             film_resume_rows(a.options.resume, a.options.frames_between_checkpoints), damaged}));
-}
-
-/// "with --truth" or "with --depth", which stand in for what is estimated.
-std::string known_depth(const RotoscopeArguments& a) {
-  if (!a.truth.empty()) return "with --truth";
-  return has_depth(a.depth) ? "with " + option_of(a.depth) : "";
-}
-
-Reason with_depth(const RotoscopeArguments& a) {
-  return [&a] {
-    return has_depth(a.depth) ? fmt::format("with {}; it works where there are two eyes", option_of(a.depth)) : "";
-  };
-}
-
-Rows time_rows(RotoscopeArguments& a) {
-  RotoscopeOptions& frames = a.options.frames;
-  static constexpr std::array<Choice<FlowMethod>, 3> flows{
-      {{"dis", FlowMethod::dis}, {"farneback", FlowMethod::farneback}, {"onnx", FlowMethod::onnx}}};
-  static constexpr std::array<Choice<CentralMerge>, 2> merges{
-      {{"visible", CentralMerge::visible}, {"average", CentralMerge::average}}};
-  const Reason truth = when([&a] { return !a.truth.empty(); }, "with --truth; the exact flow and disparity are read");
-  const Reason anew =
-      when([&a] { return a.options.frames.anew; }, "with --frame-by-frame; nothing is carried from frame to frame");
-  const Reason other_marks = [&a]() -> std::string {
-    if (!a.shots.file.empty()) return {};  // its shots may have strokes
-    const Style style = style_from(a.style, 1);
-    return is_of_strokes(style) ? "" : fmt::format("on a painting of {}; it works with strokes", name_of(style.marks));
-  };
-  return under(
-      "Time and depth",
-      {rectify_row(frames.rectify, {with_depth(a), truth}),
-       row("--flow", choice(frames.flow, flows),
-           "Optical flow method: dis (dense inverse search), farneback (polynomial expansion), which is slower, or "
-           "onnx, a network (--flow-model)",
-           {anew, truth}),
-       row("--flow-model", text(frames.flow_model),
-           "Network (.onnx) for --flow onnx: takes two frames, 1x3xHxW each or stacked 1x6xHxW; returns a flow, "
-           "1x2xHxW",
-           {anew, truth,
-            when([&a] { return a.options.frames.flow != FlowMethod::onnx; }, "with this --flow; it works with onnx")},
-           "--flow"),
-       row("--flow-values", name(a.flow_values, network_values_names()),
-           "Value range of that network's inputs: 0..255, 0..1, or ImageNet's normalisation", {anew, truth},
-           "--flow-model"),
-       row("--central", choice(frames.central, merges),
-           "How the eyes are merged to the central view: visible takes the colour from the eyes that see a point; "
-           "average takes the average of both, which causes ghosting"),
-       row("--fade-in", number(frames.carrying.fade_in_frames, {1, 1000}),
-           "Number of frames over which new strokes fade in", {other_marks, anew}),
-       row("--fade-out", number(frames.carrying.fade_out_frames, {1, 1000}),
-           "Number of frames over which strokes that no longer fit fade out", {other_marks, anew}),
-       row("--depth-budget", depth_budget(frames.depth_budget),
-           "Depth of the painted film from the farthest point to the nearest, at most, in % of the width; 'full' for "
-           "that of the source. The film is drawn for eyes that are nearer together",
-           {when([&a] { return !a.display.name.empty(); }, "with --display; --span sets how deep it looks"),
-            when([&a] { return writes_marks(a); }, "on marks (.wst); they have the depth of the film")}),
-       row("--zero-parallax", number(frames.zero_parallax_px, zero_parallax_range),
-           "Disparity in pixels that lies on the screen plane; chosen from the depth by default",
-           {when([&a] { return writes_marks(a); }, "on marks (.wst); they have the depth of the film")}),
-       row("--on-twos", flag(a.options.on_twos),
-           "Make a new painting for every second frame only, and show it twice, as in hand-drawn films", {truth}),
-       row("--frame-by-frame", flag(frames.anew), "Paint every frame separately, which flickers; for comparison"),
-       row("--truth", text(a.truth),
-           "Folder of 'synth film' whose exact flow and disparities are used instead of estimates", {with_depth(a)})});
-}
-
-Rows rotoscope_rows(RotoscopeArguments& a) {
-  a.matching.matcher = name_of(RotoscopeOptions().matching.matcher);  // films need a quick one
-  a.options.frames.depth_budget = comfortable_parallax_share;
-  const Reason marks =
-      when([&a] { return writes_marks(a); }, "on marks (.wst); 'paint --display' draws them for a display");
-  const Reason undrawn = when([&a] { return writes_marks(a); }, "on marks (.wst); they are not drawn");
-  const Reason known = [&a] {
-    return known_depth(a).empty() ? "" : known_depth(a) + "; nothing is matched where the disparity is given";
-  };
-  const Reason with_truth =
-      when([&a] { return !a.truth.empty(); }, "with --truth; the exact flow says where scenes begin");
-  const Row plan_row = row("--plan", of_type("DIR", text(a.options.plan)),
-                           "Only plan the film, and write the marks of its frames to this folder, to be drawn in parts "
-                           "by --draw",
-                           {when([&a] { return writes_marks(a); }, "on marks (.wst); they are all that is written"),
-                            when([&a] { return a.options.resume; }, "with --resume; a plan is made in one run")},
-                           {}, {"--draw", "--join"});
-  const Rows basic{row("FILM", required(text(a.film)),
-                       "Film with one or two eyes; numbered pictures (frame_%04d.png); a folder of them; or one film "
-                       "per eye: LEFT,RIGHT; with --draw and --join a plan"),
-                   row("RIGHT", text(a.right), "Film of the right eye, if FILM is that of the left eye"),
-                   row("-o,--output", output_name(a.output),
-                       "Painted film (.mp4, .mov, .mkv, .webm), numbered pictures (frame_%04d.png, .exr), or marks "
-                       "(frame_%04d.wst); the stem of the name with --display")};
-  Rows style = style_rows(a.style);
-  std::ranges::find(style, "--propagation", &Row::names)->unless.push_back([&a] {
-    return is_of_strokes(style_from(a.style, 1))
-               ? "on the strokes of a film; they are planned in the view between the eyes"
-               : "";
-  });
-  const Rows all = join({basic,
-                         film_rows(a),
-                         shots_rows(a.shots, {with_truth}),
-                         plan_rows(a.plan, plan_row),
-                         time_rows(a),
-                         film_depth_rows(a.depth),
-                         film_display_rows(a.display, {marks}),
-                         {device_row(a.options.frames.device, "What draws the planned frames", {undrawn})},
-                         style,
-                         under({}, match_rows(a.matching), {known})});
-  return refused_on_list(refused_on_plans(all, a.plan), a.shots);
-}
-
 }  // namespace
 
 Command rotoscope_command() {
@@ -495,6 +335,7 @@ Examples:
   wheatstone rotoscope film.mp4 --display looking-glass-portrait -o painted
   wheatstone rotoscope walk.mp4 --depth depth.mp4 -o painted.mp4
   wheatstone synth film -o film && wheatstone rotoscope film -o painted.mp4
+  wheatstone rotoscope film.mp4 --mask matte.mp4 --outside mosaic -o painted.mp4
   wheatstone rotoscope film.mp4 --plan film.plan -o painted.mp4
   wheatstone rotoscope --draw film.plan --frame-range 1/2 && wheatstone rotoscope --draw film.plan --frame-range 2/2
   wheatstone rotoscope --join film.plan

@@ -177,6 +177,7 @@ const std::map<std::string, Maker>& makers() {
       {"painted.mp4", make_film},
       {"walk.mp4", [](const fs::path& path) { make_walk(path, false); }},
       {"depth.mp4", [](const fs::path& path) { make_walk(path, true); }},
+      {"matte.mp4", [](const fs::path& path) { make_walk(path, true); }},
       {"model.glb", make_model},
       {"universe.hdf5", make_universe},
       {"gas.hdf5", make_universe},

@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "wheatstone/app/film_beside_internal.h"
 #include "wheatstone/app/slow_ends_internal.h"
 #include "wheatstone/error.h"
 #include "wheatstone/matching/monocular_network.h"
@@ -34,30 +35,12 @@ bool is_grey(const Image<Rgb8>& picture) {
   return sum <= most_levels * static_cast<double>(picture.pixels().size());
 }
 
-[[noreturn]] void refuse_film_depth(const fs::path& depth, const std::string& why) {
-  throw Error(ErrorKind::bad_input, fmt::format("{}: {}", depth.string(), why));
-}
-
-void check_shape(const fs::path& depth, const FilmFacts& found, const FilmOfDepth& of) {
+void check_shape(const fs::path& depth, const FilmFacts& found, const MainFilm& of) {
   const auto shape = [](const FilmFacts& facts) { return static_cast<double>(facts.width) / facts.height; };
   const double rounding = 1.0 / std::min(found.width, found.height);
   if (std::abs(shape(found) / shape(of.facts) - 1) > std::max(0.01, rounding))
-    refuse_film_depth(depth, fmt::format("is {}x{} pixels, expected the shape of {}, {}x{}", found.width, found.height,
-                                         of.film.string(), of.facts.width, of.facts.height));
-}
-
-void check_length(const fs::path& depth, const FilmFacts& found, const FilmOfDepth& of) {
-  const FilmFacts& film = of.facts;
-  if (found.frame_count && film.frame_count) {
-    if (*found.frame_count != *film.frame_count)
-      refuse_film_depth(depth, fmt::format("has {} frames, expected {} as {}", *found.frame_count, *film.frame_count,
-                                           of.film.string()));
-    return;
-  }
-  const double frame_s = film.frame_rate.value() > 0 ? 1 / film.frame_rate.value() : 0.04;
-  if (found.duration_s > 0 && film.duration_s > 0 && std::abs(found.duration_s - film.duration_s) > 1.5 * frame_s)
-    refuse_film_depth(depth, fmt::format("is {:.2f} s long, expected {:.2f} s as {}", found.duration_s, film.duration_s,
-                                         of.film.string()));
+    refuse_film_beside(depth, fmt::format("is {}x{} pixels, expected the shape of {}, {}x{}", found.width, found.height,
+                                          of.film.string(), of.facts.width, of.facts.height));
 }
 
 /// Looks for a frame with near and far points: most often the first.
@@ -66,20 +49,12 @@ void check_any_depth(const fs::path& depth, const FilmReaderOptions& reading, De
   bool any = false;
   for (Frame frame; film.read(frame);) {
     any = true;
-    if (!is_grey(frame.picture)) refuse_film_depth(depth, "is in colour, expected grey for depth");
+    if (!is_grey(frame.picture)) refuse_film_beside(depth, "is in colour, expected grey for depth");
     if (inverse_depth_range(depth_of_picture(frame.picture), kind)) return;
   }
   // A film without frames is reported elsewhere.
-  if (any) refuse_film_depth(depth, "its depth is the same everywhere, expected near and far points");
+  if (any) refuse_film_beside(depth, "its depth is the same everywhere, expected near and far points");
 }
-
-/// A film of depth that is being read beside its film.
-struct DepthFilm {
-  fs::path path, film;
-  FilmReader reader;
-  std::int64_t next = 0;  ///< frame
-  Frame frame{};
-};
 
 }  // namespace
 
@@ -98,20 +73,12 @@ MadePair make_film_pair(const Image<Rgb8>& picture, ImageView<const float> depth
   return make_pair_from_single_view(picture, disparity_from_depth(depth, picture, of_scene));
 }
 
-FilmDepth depth_of_film(const fs::path& depth, const FilmOfDepth& of, DepthKind kind) {
+FilmDepth depth_of_film(const fs::path& depth, const MainFilm& of, DepthKind kind) {
   check_any_depth(depth, of.reading, kind);
   // A std::function can be copied; a reader cannot.
-  const auto film = std::make_shared<DepthFilm>(DepthFilm{depth, of.film, open_film(depth, of.reading)});
-  check_shape(depth, film->reader.facts(), of);
-  check_length(depth, film->reader.facts(), of);
-  return [film](std::int64_t frame, const Image<Rgb8>& /*picture*/) {
-    if (frame > film->next) film->next += film->reader.skip(frame - film->next);
-    if (frame != film->next || !film->reader.read(film->frame))
-      refuse_film_depth(film->path,
-                        fmt::format("has {} frames, expected as many as {}", film->next, film->film.string()));
-    ++film->next;
-    return depth_of_picture(film->frame.picture);
-  };
+  const auto film = std::make_shared<FilmBeside>(depth, of);
+  check_shape(depth, film->facts(), of);
+  return [film](std::int64_t frame, const Image<Rgb8>& /*picture*/) { return depth_of_picture(film->at(frame)); };
 }
 
 FilmDepth depth_of_network(const fs::path& model) {
@@ -119,7 +86,7 @@ FilmDepth depth_of_network(const fs::path& model) {
   return [network, model](std::int64_t frame, const Image<Rgb8>& picture) {
     Image<float> depth = network->depth_of(picture);
     if (frame == 0 && !inverse_depth_range(depth, DepthKind::inverse))
-      refuse_film_depth(model, "finds the same depth everywhere in the first frame, expected near and far points");
+      refuse_film_beside(model, "finds the same depth everywhere in the first frame, expected near and far points");
     return depth;
   };
 }

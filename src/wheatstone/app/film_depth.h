@@ -21,8 +21,8 @@ MadePair make_film_pair(const Image<Rgb8>& picture, ImageView<const float> depth
 /// Gives the depth of a film's frames, which are asked for in their order.
 using FilmDepth = std::function<Image<float>(std::int64_t frame, const Image<Rgb8>& picture)>;
 
-/// A film whose depth is wanted, and how it is read.
-struct FilmOfDepth {
+/// A film that others are read beside, frame for frame, and how it is read.
+struct MainFilm {
   std::filesystem::path film;
   const FilmFacts& facts;
   const FilmReaderOptions& reading;
@@ -31,7 +31,7 @@ struct FilmOfDepth {
 /// Of a film of depth in grey, or numbered pictures. Throws Error{bad_input} that names it where it is no film, has not
 /// as many frames as the film or not its shape, is in colour, or its depth is the same everywhere in all frames; and
 /// while frames are asked for, where it ends before the film.
-FilmDepth depth_of_film(const std::filesystem::path& depth, const FilmOfDepth& of, DepthKind kind);
+FilmDepth depth_of_film(const std::filesystem::path& depth, const MainFilm& of, DepthKind kind);
 
 /// By a network (matching/monocular_network.h), which is asked once a frame. Throws as that does, and Error{bad_input}
 /// where it finds the same depth everywhere in the first frame.

@@ -18,8 +18,9 @@ namespace wheatstone {
 // A painted film that is planned in one run, drawn in parts by any number of others, and joined by a last one, with the
 // bytes of a film that one run makes. The plan is a folder: `plan` (FilmPlan), for each frame, from 1 on, its complete
 // marks marks_000001.wst and the pictures behind its paint, left_000001.png and right_000001.png, where the style has
-// them there, and in a dissolve the same of the shot that fades out, outgoing_marks_000001.wst; and `parts/` with the
-// segments that are drawn.
+// them there, with masks these, mask_left_000001.png, and the same files of what lies outside,
+// outside_left_000001.png; in a dissolve all that of the shot that fades out, outgoing_marks_000001.wst; and `parts/`
+// with the segments that are drawn.
 
 /// How a planned painting is shown.
 struct PlannedShowing {
@@ -29,6 +30,9 @@ struct PlannedShowing {
   std::optional<LenticularScreen> screen;
   Device device = Device::processor;
   std::int32_t backgrounds = 0;  ///< pictures behind the paint: none, or one a view
+  bool is_masked = false;        ///< with a mask for each view
+  bool paints_outside = false;   ///< of the masks
+  std::int32_t outside = 0;      ///< pictures there: none, or one a view
 };
 
 /// How a planned frame is shown, and when.

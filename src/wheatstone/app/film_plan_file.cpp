@@ -19,14 +19,28 @@ namespace fs = std::filesystem;
 
 constexpr FieldFile plan_format{"WSPLAN 1", "plan the film again"};
 constexpr auto plan_name = "plan";
-constexpr auto of_shot = "", of_outgoing = "outgoing_";  ///< beginnings of the names of files
+constexpr auto of_shot = "", of_outgoing = "outgoing_", of_masks = "mask_",
+               of_outside = "outside_";  ///< beginnings of the names of files
 
 std::string marks_name(const std::string& of, std::int64_t number) {
   return fmt::format("{}marks_{:06}.wst", of, number);
 }
 
-std::string background_name(const std::string& of, std::int64_t number, std::size_t place) {
+std::string picture_name(const std::string& of, std::int64_t number, std::size_t place) {
   return fmt::format("{}{}_{:06}.png", of, place == 0 ? "left" : "right", number);
+}
+
+template <class Pixel>
+void write_pictures(const std::vector<Image<Pixel>>& pictures, const std::string& of, std::int64_t number,
+                    const OutputFolder& folder) {
+  for (std::size_t i = 0; i < pictures.size(); ++i) write_image(folder.file(picture_name(of, number, i)), pictures[i]);
+}
+
+std::vector<Image<Rgb8>> read_pictures(const fs::path& folder, const std::string& of, std::int64_t number,
+                                       std::size_t count) {
+  std::vector<Image<Rgb8>> pictures;
+  for (std::size_t i = 0; i < count; ++i) pictures.push_back(read_image(folder / picture_name(of, number, i)));
+  return pictures;
 }
 
 /// Whether a painting can be shown so: those who draw it trust these numbers.
@@ -48,8 +62,13 @@ bool can_be_shown(const PlannedShowing& showing) {
     holds = holds && is_side(screen->width) && is_side(screen->height) && std::isfinite(screen->pitch) &&
             std::isfinite(screen->center) && screen->dpi > 0 && std::isfinite(screen->dpi) && screen->slope != 0 &&
             std::isfinite(screen->slope);
-  return holds && (showing.backgrounds == 0 ||
-                   (showing.backgrounds <= 2 && std::size_t(showing.backgrounds) == showing.views.size()));
+  const auto are_pictures = [&](std::int32_t count) {
+    return count == 0 || (count <= 2 && std::size_t(count) == showing.views.size());
+  };
+  if (showing.is_masked)
+    holds = holds && showing.views.size() <= 2 && !showing.quilt && !showing.screen && are_pictures(showing.outside) &&
+            (showing.paints_outside || showing.outside > 0);
+  return holds && are_pictures(showing.backgrounds);
 }
 
 void check_plan(const FilmPlan& plan, const FieldReader& reader) {
@@ -75,6 +94,11 @@ PlannedShowing planned_showing(const FrameShowing& showing) {
     else
       planned.screen = std::get<LenticularScreen>(*composition);
   }
+  if (const auto& outside = showing.outside) {
+    planned.is_masked = true;
+    planned.paints_outside = outside->painting.has_value();
+    planned.outside = static_cast<std::int32_t>(outside->pictures.size());
+  }
   return planned;
 }
 
@@ -85,8 +109,13 @@ FrameOfPlan read_frame(const fs::path& folder, const PlannedShowing& planned, co
   presentation = {.views = planned.views, .placement = planned.placement, .device = planned.device};
   if (planned.quilt) presentation.composition = *planned.quilt;
   if (planned.screen) presentation.composition = *planned.screen;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(planned.backgrounds); ++i)
-    frame.showing.backgrounds.push_back(read_image(folder / background_name(of, number, i)));
+  frame.showing.backgrounds = read_pictures(folder, of, number, static_cast<std::size_t>(planned.backgrounds));
+  if (!planned.is_masked) return frame;
+  ShownOutside& outside = frame.showing.outside.emplace();
+  for (const Image<Rgb8>& mask : read_pictures(folder, of + of_masks, number, planned.views.size()))
+    outside.masks.push_back(mask_of_picture(mask));
+  outside.pictures = read_pictures(folder, of + of_outside, number, static_cast<std::size_t>(planned.outside));
+  if (planned.paints_outside) outside.painting = read_painting(folder / marks_name(of + of_outside, number));
   return frame;
 }
 
@@ -142,8 +171,12 @@ void FilmPlanWriter::write(const PaintedFilmFrame& frame, const StereoFrame& tim
 void FilmPlanWriter::write_painting_of(const PlannedFilmFrame& frame, const std::string& prefix) {
   const auto number = static_cast<std::int64_t>(frames_.size());
   write_painting(folder_.file(marks_name(prefix, number)), frame.painting);
-  for (std::size_t i = 0; i < frame.showing.backgrounds.size(); ++i)
-    write_image(folder_.file(background_name(prefix, number, i)), frame.showing.backgrounds[i]);
+  write_pictures(frame.showing.backgrounds, prefix, number, folder_);
+  const auto& outside = frame.showing.outside;
+  if (!outside) return;
+  write_pictures(outside->masks, prefix + of_masks, number, folder_);
+  write_pictures(outside->pictures, prefix + of_outside, number, folder_);
+  if (outside->painting) write_painting(folder_.file(marks_name(prefix + of_outside, number)), *outside->painting);
 }
 
 void FilmPlanWriter::finish(FilmPlan plan) {

@@ -68,7 +68,17 @@ DrawnFrame draw_film_frame(const Painting& painting, const FrameShowing& showing
   Presentation presentation = showing.presentation;
   presentation.backgrounds.assign(showing.backgrounds.begin(), showing.backgrounds.end());
   Presented shown = present(painting, presentation);
-  const double worst_bare_share = shown.worst_bare_share;
+  double worst_bare_share = shown.worst_bare_share;
+  if (const auto& outside = showing.outside) {
+    Presented painted;
+    if (outside->painting) {
+      presentation.backgrounds.assign(outside->pictures.begin(), outside->pictures.end());
+      painted = present(*outside->painting, presentation);
+      worst_bare_share = std::max(worst_bare_share, painted.worst_bare_share);
+    }
+    const std::vector<Image<Rgb8>>& pictures = outside->painting ? painted.views : outside->pictures;
+    for (std::size_t i = 0; i < shown.views.size(); ++i) show_in_mask(outside->masks[i], pictures[i], shown.views[i]);
+  }
   return {frame_pictures(std::move(shown)), worst_bare_share};
 }
 

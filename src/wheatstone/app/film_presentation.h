@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "wheatstone/app/display_views.h"
+#include "wheatstone/app/film_mask.h"
 #include "wheatstone/display/lenticular.h"
 #include "wheatstone/display/quilt.h"
 #include "wheatstone/stereo/stereo_pair.h"
@@ -49,10 +50,18 @@ Image<Rgb8> picture_in_film(FramePictures pictures, StereoLayout layout, std::st
 /// Puts `share`, 0..1, of a picture over the rest of another one of its size.
 void dissolve_from(const Image<Rgb8>& outgoing, float share, Image<Rgb8>& picture);
 
+/// What is shown of a frame where it is not painted in its style.
+struct ShownOutside {
+  std::vector<Image<std::uint8_t>> masks;  ///< of each view, as FrameMask
+  std::vector<Image<Rgb8>> pictures;       ///< of each view; behind the paint of `painting`, which may have none
+  std::optional<Painting> painting;        ///< in another style; none: the pictures are shown
+};
+
 /// How a frame is shown, with the backgrounds that its presentation borrows.
 struct FrameShowing {
-  Presentation presentation;             ///< without backgrounds
-  std::vector<Image<Rgb8>> backgrounds;  ///< of each view, or none
+  Presentation presentation;                 ///< without backgrounds
+  std::vector<Image<Rgb8>> backgrounds;      ///< of each view, or none
+  std::optional<ShownOutside> outside = {};  ///< not with a composition
 };
 
 /// A frame that was drawn.

@@ -28,9 +28,13 @@ PaintedFilmFrame paint_film_frame(StereoFrame& frame, const RotoscopeFilmOptions
   if (options.known) known = options.known(number, eyes.left);
   if (known && known->flow && !options.ranks.alone())
     throw Error(ErrorKind::wrong_usage, "frames whose flow is known are painted in one process, not under mpirun");
+  std::optional<FrameMask> mask;
+  if (options.mask) mask = options.mask(number, eyes.left);
+  const KnownFrame* const known_frame = known ? &*known : nullptr;
+  const FrameMask* const frame_mask = mask ? &*mask : nullptr;
   const auto paint = [&](const RotoscopeOptions& of_frame, RotoscopeState& of_shot) {
-    if (draws) return rotoscope_frame(eyes, of_frame, of_shot, known ? &*known : nullptr, progress);
-    return RotoscopedFrame{plan_film_frame(eyes, of_frame, of_shot, known ? &*known : nullptr, progress), {}};
+    if (draws) return rotoscope_frame(eyes, of_frame, of_shot, known_frame, progress, frame_mask);
+    return RotoscopedFrame{plan_film_frame(eyes, of_frame, of_shot, known_frame, progress, frame_mask), {}};
   };
   const StereoLayout layout = options.right_film.empty() ? options.writing.layout : StereoLayout::left_right;
   const auto picture_of = [&](RotoscopedFrame& painted) {

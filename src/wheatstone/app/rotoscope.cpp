@@ -56,6 +56,16 @@ void check_eyes(const StereoPair& eyes, const RotoscopeOptions& options, const R
                             eyes.left.height(), state.left_before.width(), state.left_before.height()));
 }
 
+void check_mask(const FrameMask& mask, const StereoPair& eyes, const RotoscopeOptions& options) {
+  if (options.display || options.depth_budget || options.zero_parallax_px)
+    throw Error(ErrorKind::wrong_usage, "a frame with a mask has the depth of the film, expected no other");
+  for (const Image<std::uint8_t>* of_eye : {&mask.left, &mask.right})
+    if (!same_size(*of_eye, eyes.left) && (of_eye == &mask.left || !of_eye->empty()))
+      throw Error(ErrorKind::bad_input,
+                  fmt::format("the mask is {}x{} pixels, expected {}x{} as the frame", of_eye->width(),
+                              of_eye->height(), eyes.left.width(), eyes.left.height()));
+}
+
 /// A scene's range is measured again, at first often and then every 24 frames, because a fade may hide parts of it.
 bool looks_again(std::int64_t frame_of_scene) {
   constexpr std::int64_t frames_between_looks = 24;
@@ -281,17 +291,53 @@ FrameShowing showing_of(const FrameTask& task, const TwoEyes& eyes, const SceneD
 
 /// Plans the frame, perhaps smaller than it is drawn. Strokes that are drawn for the film's own eyes are repaired by
 /// what these see.
-PlannedFrame plan_marks(const FilmFrame& frame, const FrameTask& task, const TwoEyes& eyes, RotoscopeState& state) {
+PlannedFrame plan_marks(const FilmFrame& frame, const FrameTask& task, const TwoEyes& eyes, const Style& style,
+                        PaintingMemory& memory) {
   const RotoscopeOptions& options = task.options;
-  const Style& style = options.style;
   if (task.reduction > 1) {
-    PlannedFrame planned = plan_frame(frame, at_half_size(style), options.carrying, state.memory, task.progress);
+    PlannedFrame planned = plan_frame(frame, at_half_size(style), options.carrying, memory, task.progress);
     planned.painting =
         at_whole_size(std::move(planned.painting), {task.whole.left.width(), task.whole.left.height()}, style);
     return planned;
   }
-  if (!are_own_eyes(options, eyes)) return plan_frame(frame, style, options.carrying, state.memory, task.progress);
-  return plan_for_eyes(frame, style, options.carrying, state.memory, task.progress, options.device);
+  if (!are_own_eyes(options, eyes)) return plan_frame(frame, style, options.carrying, memory, task.progress);
+  return plan_for_eyes(frame, style, options.carrying, memory, task.progress, options.device);
+}
+
+/// The mask as the scene's frames are rectified, whose colours do not matter.
+FrameMask rectified_mask(const FrameMask& mask, SceneRectification scene) {
+  if (!scene.how) return mask;
+  scene.colour.reset();
+  const auto grey = [](const Image<std::uint8_t>& levels) {
+    Image<Rgb8> picture(levels.width(), levels.height());
+    std::ranges::transform(levels.pixels(), picture.pixels().begin(), [](std::uint8_t level) {
+      return Rgb8{level, level, level};
+    });
+    return picture;
+  };
+  const auto levels = [](const Image<Rgb8>& picture) {
+    Image<std::uint8_t> of_picture(picture.width(), picture.height());
+    std::ranges::transform(picture.pixels(), of_picture.pixels().begin(), [](Rgb8 pixel) { return pixel.r; });
+    return of_picture;
+  };
+  const StereoPair eyes = rectified({grey(mask.left), grey(mask.right.empty() ? mask.left : mask.right)}, scene);
+  return {levels(eyes.left), mask.right.empty() ? Image<std::uint8_t>() : levels(eyes.right)};
+}
+
+/// What each eye sees where the frame is not painted in its style.
+ShownOutside outside_of(const FrameTask& task, FrameMask mask, const FrameAtWork& frame) {
+  const StereoPair& whole = task.whole;
+  ShownOutside outside;
+  if (mask.right.empty() && !whole.right.empty())
+    mask.right = mask_in_right_eye(mask.left, frame.geometry.left_disparity);
+  const auto add = [&](Image<std::uint8_t>&& of_eye, const Image<Rgb8>& picture) {
+    outside.masks.push_back(std::move(of_eye));
+    if (!task.options.outside || task.options.outside->background == Background::photograph)
+      outside.pictures.push_back(picture);
+  };
+  add(std::move(mask.left), whole.left);
+  if (!whole.right.empty()) add(std::move(mask.right), whole.right);
+  return outside;
 }
 
 /// Compares the frame with the one before and adds it to the film's sums.
@@ -314,9 +360,10 @@ void accumulate_statistics(const RotoscopeOptions& options, RotoscopeState& stat
 }  // namespace
 
 PlannedFilmFrame plan_film_frame(const StereoPair& photographed, const RotoscopeOptions& options, RotoscopeState& state,
-                                 const KnownFrame* known, const Progress& progress) {
+                                 const KnownFrame* known, const Progress& progress, const FrameMask* mask) {
   const bool has_depth = known != nullptr && known->depth;
   check_eyes(photographed, options, state, has_depth);
+  if (mask != nullptr) check_mask(*mask, photographed, options);
   PlannedFilmFrame result;
   FirstLook first = rectify_frame({photographed, photographed, options, known, progress}, state, result);
   StereoPair eyes = std::move(first.eyes);
@@ -327,8 +374,8 @@ PlannedFilmFrame plan_film_frame(const StereoPair& photographed, const Rotoscope
     made = {std::move(pair.geometry), known->flow};
     known = &made;
   }
-  const bool is_smaller =
-      options.at_half_size && known == nullptr && may_be_planned_at_half_size(options.style, eyes.left.width());
+  const bool is_smaller = options.at_half_size && mask == nullptr && known == nullptr &&
+                          may_be_planned_at_half_size(options.style, eyes.left.width());
   const StereoPair smaller = is_smaller ? at_half_size(eyes) : StereoPair();
   const FrameTask task{eyes,     is_smaller ? smaller : eyes, options,           known,
                        progress, std::move(first.to_before),  is_smaller ? 2 : 1};
@@ -347,11 +394,18 @@ PlannedFilmFrame plan_film_frame(const StereoPair& photographed, const Rotoscope
                                    options.depth_budget.value_or(1.f), options.zero_parallax_px);
   {
     const Stopwatch watch(result.painting_times.planning_s);
-    PlannedFrame planned = plan_marks(to_paint, task, result.eyes, state);
+    PlannedFrame planned = plan_marks(to_paint, task, result.eyes, options.style, state.memory);
     result.painting = std::move(planned.painting);
     result.counts = planned.counts;
   }
   result.showing = showing_of(task, result.eyes, state.depth);
+  if (mask != nullptr) {
+    const Stopwatch watch(result.painting_times.planning_s);
+    ShownOutside& outside =
+        result.showing.outside.emplace(outside_of(task, rectified_mask(*mask, state.rectification), frame));
+    if (options.outside)
+      outside.painting = plan_marks(to_paint, task, result.eyes, *options.outside, state.outside_memory).painting;
+  }
   accumulate_statistics(options, state, result);
 
   ++state.frames;
@@ -371,8 +425,8 @@ void repeat_film_frame(const PlannedFilmFrame& before, RotoscopeState& state) {
 }
 
 RotoscopedFrame rotoscope_frame(const StereoPair& photographed, const RotoscopeOptions& options, RotoscopeState& state,
-                                const KnownFrame* known, const Progress& progress) {
-  RotoscopedFrame result{plan_film_frame(photographed, options, state, known, progress), {}};
+                                const KnownFrame* known, const Progress& progress, const FrameMask* mask) {
+  RotoscopedFrame result{plan_film_frame(photographed, options, state, known, progress, mask), {}};
   report(progress, "drawing", 0);
   const Stopwatch watch(result.painting_times.rasterising_s);
   DrawnFrame drawn = draw_film_frame(result.painting, result.showing);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "wheatstone/app/film_depth.h"
+#include "wheatstone/app/film_mask.h"
 #include "wheatstone/app/film_presentation.h"
 #include "wheatstone/app/scene_rectification.h"
 #include "wheatstone/matching/match.h"
@@ -25,6 +26,7 @@ inline constexpr NumberRange zero_parallax_range{-65535, 65535};
 
 struct RotoscopeOptions {
   Style style;
+  std::optional<Style> outside;  ///< of masks; none: the film's own pictures are shown there
   /// If it has no range, one is found for each scene.
   MatchOptions matching{.matcher = Matcher::sgbm};
   /// Only the first frame of a scene is matched by itself; others near the disparity of the frame before, as
@@ -95,6 +97,7 @@ struct RotoscopeState {
   SceneDepth depth;                              ///< where the frames are drawn for a display or a depth budget
   std::optional<InverseDepthRange> depth_range;  ///< of the scene, where the frames' depth is known
   PaintingMemory memory;
+  PaintingMemory outside_memory;     ///< of the style outside masks
   std::vector<Layer> layers_before;  ///< the strokes as they were drawn, to tell what became of them
   RotoscopeTotals totals;
 };
@@ -128,15 +131,19 @@ struct RotoscopedFrame : PlannedFilmFrame {
 /// that flow carries on. `photographed.right` is empty for a film of one eye; where its depth is known, it is painted
 /// as the left eye of a pair. Throws Error{bad_input} where the eyes, or this frame and the last, differ in size, or a
 /// film of one eye is to be shown on a display, wrong_usage for options that make no sense. `progress` is called
-/// between its steps and while it matches. If it throws, painting ends, and `state` is of no further use.
+/// between its steps and while it matches. If it throws, painting ends, and `state` is of no further use. With a
+/// `mask`, which is rectified as the frame is, the options must have no display, depth budget or screen plane, because
+/// the film's own pictures have its own depth; the frame is planned at its whole size.
 PlannedFilmFrame plan_film_frame(const StereoPair& photographed, const RotoscopeOptions& options, RotoscopeState& state,
-                                 const KnownFrame* known = nullptr, const Progress& progress = {});
+                                 const KnownFrame* known = nullptr, const Progress& progress = {},
+                                 const FrameMask* mask = nullptr);
 
 /// Goes on by a frame that shows the painting of the one before again.
 void repeat_film_frame(const PlannedFilmFrame& before, RotoscopeState& state);
 
 /// Plans the frame and draws it (draw_film_frame). The state's totals learn how much of it is bare.
 RotoscopedFrame rotoscope_frame(const StereoPair& photographed, const RotoscopeOptions& options, RotoscopeState& state,
-                                const KnownFrame* known = nullptr, const Progress& progress = {});
+                                const KnownFrame* known = nullptr, const Progress& progress = {},
+                                const FrameMask* mask = nullptr);
 
 }  // namespace wheatstone

@@ -299,16 +299,16 @@ std::string recipe_of(const RotoscopeFilmOptions& options) {
   // Whoever adds a member says here whether it decides a byte. Not in the text: `writing` and the interval, which the
   // film's segments compare themselves, the sources, which are compared by what is in them, and what only says how
   // the run goes: plan, version, resume, keep_going, expected_frames, ranks and their scenes.
-  static_assert(field_count<RotoscopeFilmOptions>() == 19);
+  static_assert(field_count<RotoscopeFilmOptions>() == 20);
   RotoscopeOptions frames = options.frames;
   frames.matching.model.clear();  // their content is compared
   frames.flow_model.clear();
   FilmReaderOptions reading = options.reading;
   reading.threads = 0;  // the same frames on any number
-  return fmt::format("{}\n{}\n{}\n{}\nanaglyph {}\ntwo films {}\nmarks {}\nknown {}\ntwos {}", options.made_by,
+  return fmt::format("{}\n{}\n{}\n{}\nanaglyph {}\ntwo films {}\nmarks {}\nknown {}\nmask {}\ntwos {}", options.made_by,
                      text_of_fields(frames), text_of_fields(options.shots), text_of_fields(reading), options.anaglyph,
                      !options.right_film.empty(), options.marks.string(), static_cast<bool>(options.known),
-                     options.on_twos);
+                     static_cast<bool>(options.mask), options.on_twos);
 }
 
 std::optional<std::string> unfinished_film(const fs::path& output, const fs::path& marks) {

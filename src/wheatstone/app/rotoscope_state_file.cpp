@@ -37,6 +37,7 @@ class Check {
     flow(state.flow_before.backward);
     for (const Layer& one : state.layers_before) layer(one);
     memory(state.memory);
+    memory(state.outside_memory);
   }
 
  private:

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "command.h"
+#include "depth_argument.h"
+#include "display_argument.h"
+#include "film_mask_argument.h"
+#include "film_plan_run.h"
+#include "film_shots_run.h"
+#include "match_options.h"
+#include "options.h"
+#include "style_options.h"
+#include "wheatstone/app/eyes_in_film.h"
+#include "wheatstone/app/rotoscope_film.h"
+
+namespace wheatstone::cli {
+
+/// What 'rotoscope' takes.
+struct RotoscopeArguments {
+  Given given;
+  std::string film, right;
+  std::string output = "painted.mp4";
+  std::optional<StereoLayout> layout;
+  EyesInFilm output_layout;
+  std::optional<double> from_s, to_s;
+  int frame_step = 1;
+  std::optional<Rational> rate;
+  std::string truth;
+  DisplayArguments display;
+  std::string flow_values = "255";
+  DepthArguments depth;
+  MaskArguments mask;
+  PlanArguments plan;
+  ShotsArguments shots;
+  RotoscopeFilmOptions options;
+  MatchArguments matching;
+  StyleArguments style;
+};
+
+/// Whether the output is only marks.
+bool writes_marks(const RotoscopeArguments& arguments);
+
+/// All its options.
+Rows rotoscope_rows(RotoscopeArguments& arguments);
+
+}  // namespace wheatstone::cli
