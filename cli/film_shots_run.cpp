@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "film_mask_argument.h"
+#include "wheatstone/app/film_preview.h"
 #include "wheatstone/app/film_scenes.h"
 #include "wheatstone/app/list_shots.h"
 #include "wheatstone/app/place_shots.h"
@@ -15,7 +16,18 @@
 
 namespace wheatstone::cli {
 
-Rows shots_rows(ShotsArguments& arguments, const Reasons& unless) {
+namespace {
+
+/// "about 50 s", "about 12 min", "about 3.5 h".
+std::string duration_text(double seconds) {
+  if (seconds < 100) return fmt::format("about {:.0f} s", std::max(seconds, 1.));
+  if (seconds < 6000) return fmt::format("about {:.0f} min", seconds / 60);
+  return fmt::format("about {:.1f} h", seconds / 3600);
+}
+
+}  // namespace
+
+Rows shots_rows(ShotsArguments& arguments, const Reasons& unless, const Reasons& no_preview) {
   return under("Shots",
                {row("--list-shots", of_type("FILE", text(arguments.list)),
                     "Only find the cuts, and write the shots to this file (.toml), to be edited, with a small picture "
@@ -23,7 +35,11 @@ Rows shots_rows(ShotsArguments& arguments, const Reasons& unless) {
                 row("--shots", of_type("FILE", text(arguments.file)),
                     "Paint the shots of this file (.toml), each in its own style and depth; no other cuts are looked "
                     "for",
-                    unless)});
+                    unless),
+                row("--preview", of_type("FILE", text(arguments.preview)),
+                    "Only show how the film will look: five frames of each shot, a third as wide, on one sheet (.png, "
+                    ".jpg); and tell about how long it takes to paint the film, and how large it becomes",
+                    no_preview, {}, {"--plan", "--resume", "--save-marks", "--truth"})});
 }
 
 Rows refused_on_list(Rows rows, const ShotsArguments& arguments) {
@@ -75,6 +91,22 @@ Report run_list(const ShotsArguments& arguments, const FilmFiles& film, const Fi
   return {{{"output", arguments.list},
            {"shots", listed, fmt::format("shots            {}", shots.size())},
            only_text(fmt::format("written to       {}, with a picture of each shot beside it", arguments.list))}};
+}
+
+Report run_preview(const ShotsArguments& arguments, const FilmFiles& film, const std::string& output,
+                   const RotoscopeFilmOptions& options, const Session& session) {
+  if (!session.ranks.alone()) throw Error(ErrorKind::wrong_usage, "--preview works in one process, not under mpirun");
+  const FilmPreview preview = preview_film(film, output, arguments.preview, options, session.progress);
+  const double megabytes = preview.bytes / 1e6;
+  return {{{"output", arguments.preview},
+           {"shots", preview.shots, fmt::format("shots            {}, {} frames", preview.shots, preview.frames)},
+           {"frames", preview.frames},
+           {"expected_seconds", preview.seconds,
+            fmt::format("time             {}, {:.2f} s a frame", duration_text(preview.seconds),
+                        preview.seconds / static_cast<double>(preview.frames))},
+           {"expected_megabytes", megabytes,
+            fmt::format("size             about {:.{}f} MB, without sound", megabytes, megabytes < 10 ? 1 : 0)},
+           only_text(fmt::format("written to       {}; the film is not painted", arguments.preview))}};
 }
 
 }  // namespace wheatstone::cli

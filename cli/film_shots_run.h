@@ -11,13 +11,13 @@
 
 namespace wheatstone::cli {
 
-/// A shots file, which is written or read.
+/// A shots file, which is written or read, and a sheet that shows the shots.
 struct ShotsArguments {
-  std::string list, file;
+  std::string list, file, preview;
 };
 
-/// --list-shots and --shots, which is refused where one of `unless` holds.
-Rows shots_rows(ShotsArguments& arguments, const Reasons& unless);
+/// --list-shots, --shots, which is refused where one of `unless` holds, and --preview, where one of `no_preview` does.
+Rows shots_rows(ShotsArguments& arguments, const Reasons& unless, const Reasons& no_preview);
 
 /// The rows of the command, of which those are refused with --list-shots that have no effect there: it only looks at
 /// the film.
@@ -38,5 +38,9 @@ std::vector<FilmShot> shots_found(const FilmFiles& film, const RotoscopeFilmOpti
 /// Writes a shots file of a film.
 Report run_list(const ShotsArguments& arguments, const FilmFiles& film, const FilmReaderOptions& reading,
                 const Session& session);
+
+/// Writes a sheet that shows how the shots of `options` will look, and tells what the film will take.
+Report run_preview(const ShotsArguments& arguments, const FilmFiles& film, const std::string& output,
+                   const RotoscopeFilmOptions& options, const Session& session);
 
 }  // namespace wheatstone::cli

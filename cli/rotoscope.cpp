@@ -208,15 +208,17 @@ void take_device(const Session& session, RotoscopeFilmOptions& options) {
 }
 
 FilmFiles films_from(const RotoscopeArguments& arguments) {
-  check_distinct_outputs(
-      std::array<NamedOutput, 2>{{{"--output", arguments.output}, {"--save-marks", arguments.options.marks}}});
+  check_distinct_outputs(std::array<NamedOutput, 3>{{{"--output", arguments.output},
+                                                     {"--save-marks", arguments.options.marks},
+                                                     {"--preview", arguments.shots.preview}}});
   std::optional<StereoLayout> layout = arguments.layout;
   if (has_depth(arguments.depth) && !layout) layout = StereoLayout::mono;
   FilmFiles film = find_film(arguments.film, layout);
   if (!arguments.right.empty()) film = {arguments.film, arguments.right, {}};
   const fs::path depth = arguments.depth.file, model = arguments.depth.model;
   const fs::path shots = arguments.shots.file, mask = arguments.mask.file;
-  for (const fs::path& output : {fs::path(arguments.output), arguments.options.right_film})
+  for (const fs::path& output :
+       {fs::path(arguments.output), arguments.options.right_film, fs::path(arguments.shots.preview)})
     if (!output.empty())
       check_not_an_input(
           output, std::array{film.film, film.right, depth, model, arguments.options.frames.flow_model, shots, mask});
@@ -288,7 +290,8 @@ Report run_rotoscope(const RotoscopeArguments& given, const Session& session) {
     arguments.output = film_of_eye(arguments.output, left_eye).string();
   }
   arguments.options.anaglyph = arguments.output_layout.anaglyph;
-  if (arguments.options.plan.empty()) tell_what_film_keeps(arguments.output, arguments.options.marks);
+  const bool is_preview = !arguments.shots.preview.empty();
+  if (arguments.options.plan.empty() && !is_preview) tell_what_film_keeps(arguments.output, arguments.options.marks);
   RotoscopeFilmOptions options = arguments.options;
   take_truth(arguments, session, options);
   const FilmFiles film = films_from(arguments);
@@ -310,9 +313,10 @@ Report run_rotoscope(const RotoscopeArguments& given, const Session& session) {
   options.expected_frames = expected_frames(source.facts(), options.reading);
   options.made_from.push_back(film.film);
   if (!film.right.empty()) options.made_from.push_back(film.right);
+  if ((options.on_twos || is_preview) && options.shots.empty()) options.shots = shots_found(film, options, session);
+  if (is_preview) return run_preview(arguments.shots, film, arguments.output, options, session);
   const std::vector<std::string> left_out = side_streams_left_out(arguments.output, options.writing);
   if (!left_out.empty()) remark(session, fmt::format("wheatstone: {}", fmt::join(left_out, "; ")));
-  if (options.on_twos && options.shots.empty()) options.shots = shots_found(film, options, session);
   take_ranks(film, options, session);
   const RotoscopedFilm result =
       make_or_say_how_to_continue([&] { return rotoscope_film(source, arguments.output, options, session.progress); });

@@ -138,7 +138,7 @@ Rows rotoscope_rows(RotoscopeArguments& a) {
   });
   const Rows all = join({basic,
                          film_rows(a),
-                         shots_rows(a.shots, {with_truth}),
+                         shots_rows(a.shots, {with_truth}, {undrawn}),
                          plan_rows(a.plan, plan_row),
                          time_rows(a),
                          film_depth_rows(a.depth),

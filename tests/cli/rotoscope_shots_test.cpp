@@ -56,6 +56,31 @@ TEST(RotoscopeShots, AListTakesNoOptionOfPainting) {
   }
 }
 
+TEST(RotoscopeShots, ArePreviewedOnOneSheetWithoutPainting) {
+  const TemporaryFolder folder;
+  make_synthetic(folder);
+  const ProgramResult result = rotoscope(folder, {"--style", "posterise", "--preview", "sheet.jpg", "--json"});
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  const auto facts = nlohmann::json::parse(result.output);
+  EXPECT_EQ(facts["shots"], 2);
+  EXPECT_EQ(facts["frames"], 8);
+  EXPECT_GT(facts["expected_seconds"], 0);
+  EXPECT_GT(facts["expected_megabytes"], 0);
+  EXPECT_TRUE(fs::exists(folder / "sheet.jpg"));
+  EXPECT_FALSE(fs::exists(folder / "painted.mp4"));
+  for (const auto& [words, message] : std::initializer_list<std::pair<Words, std::string>>{
+           {{"--preview", "sheet.mp4"}, "sheet.mp4: expected the name of a picture"},
+           {{"--preview", "a.png", "-o", "a.png"}, "--preview: a.png is the same file as that of --output"},
+           {{"--preview", "a.png", "-o", "a_%d.wst"}, "--preview: has no effect on marks (.wst)"},
+           {{"--preview", "a.png", "--plan", "a.plan"}, "--preview excludes --plan"},
+           {{"--preview", "a.png", "--truth", "film"}, "--preview excludes --truth"}}) {
+    const ProgramResult refused = rotoscope(folder, words);
+    EXPECT_EQ(refused.exit_code, 2) << message;
+    EXPECT_THAT(refused.errors, HasSubstr(message));
+    EXPECT_EQ(std::ranges::count(refused.errors, '\n'), 1) << refused.errors;
+  }
+}
+
 /// Two styles in the film of make_synthetic, with a cut more than it has.
 void write_shots(const TemporaryFolder& folder) {
   put_bytes(folder / "s.toml", R"([[shot]]

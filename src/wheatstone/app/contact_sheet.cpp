@@ -15,7 +15,7 @@
 namespace wheatstone {
 namespace {
 
-constexpr int tile_width = 320, tile_height = 240, caption_height = 26, gap = 12;
+constexpr int caption_height = 26, gap = 12;
 
 /// The end of a caption, as names of one folder begin alike, in UTF-8.
 std::string shortened(std::string_view caption) {
@@ -34,7 +34,7 @@ std::string shortened(std::string_view caption) {
 }
 
 /// A caption below a tile; letters that no font of the machine has are question marks.
-void put_caption(const std::string& caption, cv::Point corner, Image<Rgb8>& sheet) {
+void put_caption(const std::string& caption, int tile_width, cv::Point corner, Image<Rgb8>& sheet) {
   constexpr int letter_px = 14;
   std::string text = shortened(caption);
   for (const bool is_last : {false, true}) {
@@ -50,7 +50,8 @@ void put_caption(const std::string& caption, cv::Point corner, Image<Rgb8>& shee
   }
 }
 
-void put_picture(const Image<Rgb8>& picture, cv::Mat sheet, cv::Point corner) {
+void put_picture(const Image<Rgb8>& picture, const SheetLayout& layout, cv::Mat sheet, cv::Point corner) {
+  const int tile_width = layout.tile_width, tile_height = layout.tile_height;
   const double scale = std::min(
       {static_cast<double>(tile_width) / picture.width(), static_cast<double>(tile_height) / picture.height(), 1.});
   const cv::Size size(std::max(static_cast<int>(std::lround(scale * picture.width())), 1),
@@ -62,16 +63,17 @@ void put_picture(const Image<Rgb8>& picture, cv::Mat sheet, cv::Point corner) {
 
 }  // namespace
 
-Image<Rgb8> contact_sheet(std::span<const SheetEntry> entries) {
+Image<Rgb8> contact_sheet(std::span<const SheetEntry> entries, const SheetLayout& layout) {
   const int count = static_cast<int>(entries.size());
-  const int columns = std::max(static_cast<int>(std::ceil(std::sqrt(count))), 1);
+  const int columns = layout.columns > 0 ? layout.columns : std::max(static_cast<int>(std::ceil(std::sqrt(count))), 1);
   const int rows = std::max((count + columns - 1) / columns, 1);
-  constexpr int across = tile_width + gap, down = tile_height + caption_height + gap;
+  const int across = layout.tile_width + gap, down = layout.tile_height + caption_height + gap;
   Image<Rgb8> sheet(columns * across + gap, rows * down + gap, {255, 255, 255});
   for (int i = 0; i < count; ++i) {
     const cv::Point corner(gap + i % columns * across, gap + i / columns * down);
-    put_picture(read_image(entries[i].picture), as_mat(sheet), corner);
-    put_caption(entries[i].caption, {corner.x, corner.y + tile_height}, sheet);
+    if (entries[i].picture.empty()) continue;
+    put_picture(read_image(entries[i].picture), layout, as_mat(sheet), corner);
+    put_caption(entries[i].caption, layout.tile_width, {corner.x, corner.y + layout.tile_height}, sheet);
   }
   return sheet;
 }

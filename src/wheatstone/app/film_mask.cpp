@@ -77,6 +77,14 @@ Image<std::uint8_t> mask_of_picture(const Image<Rgb8>& picture) {
   return mask;
 }
 
+Image<Rgb8> picture_of_mask(const Image<std::uint8_t>& mask) {
+  Image<Rgb8> picture(mask.width(), mask.height());
+  std::ranges::transform(mask.pixels(), picture.pixels().begin(), [](std::uint8_t level) {
+    return Rgb8{level, level, level};
+  });
+  return picture;
+}
+
 Image<std::uint8_t> mask_in_right_eye(const Image<std::uint8_t>& left, ImageView<const float> left_disparity) {
   const WarpedColumns from = warp_columns(left_disparity, left_eye, right_eye);
   Image<std::uint8_t> right(left.width(), left.height());

@@ -25,8 +25,9 @@ using FilmMask = std::function<FrameMask(std::int64_t frame, const Image<Rgb8>& 
 /// size fits neither.
 FilmMask mask_of_film(const std::filesystem::path& mask, const MainFilm& main, StereoLayout layout);
 
-/// The mask that a picture is.
+/// The mask that a picture is, and the grey picture of a mask.
 Image<std::uint8_t> mask_of_picture(const Image<Rgb8>& picture);
+Image<Rgb8> picture_of_mask(const Image<std::uint8_t>& mask);
 
 /// A mask of the left eye as the right eye sees it: each place moves by its disparity, the nearest is seen, and what
 /// only the right eye sees goes on from the farther side. The disparity is finite.

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "wheatstone/app/film_scenes.h"
+#include "wheatstone/app/frame_search_internal.h"
 #include "wheatstone/error.h"
 #include "wheatstone/files/whole_file.h"
 #include "wheatstone/pictures/write_image.h"
@@ -33,28 +34,6 @@ std::string thumbnail_of(const Image<Rgb8>& picture) {
   const PictureSize size = reduced_size({picture.width(), picture.height()}, longest_px);
   return encode_jpeg(reduced(picture, size), quality);
 }
-
-/// The frames of a film that it is gone through for, in ascending order.
-class FrameSearch {
- public:
-  explicit FrameSearch(StereoFilmReader film) : film_(std::move(film)) {}
-
-  /// A frame, counted from 0: the present one, or a later one.
-  const StereoFrame& at(std::int64_t frame) {
-    if (frame + 1 == read_) return frame_;
-    read_ += film_.skip(frame - read_);
-    if (read_ != frame || !film_.read(frame_))
-      throw Error(ErrorKind::bad_input,
-                  fmt::format("the film ended after {} frames, expected more as at first", read_));
-    ++read_;
-    return frame_;
-  }
-
- private:
-  StereoFilmReader film_;
-  StereoFrame frame_;
-  std::int64_t read_ = 0;
-};
 
 }  // namespace
 

@@ -308,20 +308,9 @@ PlannedFrame plan_marks(const FilmFrame& frame, const FrameTask& task, const Two
 FrameMask rectified_mask(const FrameMask& mask, SceneRectification scene) {
   if (!scene.how) return mask;
   scene.colour.reset();
-  const auto grey = [](const Image<std::uint8_t>& levels) {
-    Image<Rgb8> picture(levels.width(), levels.height());
-    std::ranges::transform(levels.pixels(), picture.pixels().begin(), [](std::uint8_t level) {
-      return Rgb8{level, level, level};
-    });
-    return picture;
-  };
-  const auto levels = [](const Image<Rgb8>& picture) {
-    Image<std::uint8_t> of_picture(picture.width(), picture.height());
-    std::ranges::transform(picture.pixels(), of_picture.pixels().begin(), [](Rgb8 pixel) { return pixel.r; });
-    return of_picture;
-  };
-  const StereoPair eyes = rectified({grey(mask.left), grey(mask.right.empty() ? mask.left : mask.right)}, scene);
-  return {levels(eyes.left), mask.right.empty() ? Image<std::uint8_t>() : levels(eyes.right)};
+  const StereoPair eyes =
+      rectified({picture_of_mask(mask.left), picture_of_mask(mask.right.empty() ? mask.left : mask.right)}, scene);
+  return {mask_of_picture(eyes.left), mask.right.empty() ? Image<std::uint8_t>() : mask_of_picture(eyes.right)};
 }
 
 /// What each eye sees where the frame is not painted in its style.
