@@ -144,9 +144,9 @@ class PreviewWork {
         return known;
       };
     if (options_.mask) {
-      const FrameMask mask = options_.mask(number, frame.left);
-      const FrameMask of_third{mask_of_picture(third(picture_of_mask(mask.left))),
-                               mask_of_picture(third(picture_of_mask(mask.right)))};
+      FrameMask mask = options_.mask(number, frame.left);
+      FrameMask of_third{mask_of_picture(third(picture_of_mask(mask.left))),
+                         mask_of_picture(third(picture_of_mask(mask.right)))};
       whole_.mask = [mask](std::int64_t, const Image<Rgb8>&) { return mask; };
       small_.mask = [of_third](std::int64_t, const Image<Rgb8>&) { return of_third; };
     }

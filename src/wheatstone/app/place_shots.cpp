@@ -183,7 +183,7 @@ std::vector<FilmShot> place_shots(std::span<const WrittenShot> shots, const Film
   whole.every = 1;
   const std::vector<ShotPlace> places = find_places(shots, open_film(film, whole), progress);
   check_order(shots, places);
-  const std::vector<FilmShot> in_whole = shots_at(shots, places);
+  std::vector<FilmShot> in_whole = shots_at(shots, places);
   if (!reading.from_s && !reading.to_s && reading.every == 1) return in_whole;
   // Those of which a frame is read.
   std::vector<FilmShot> placed;
