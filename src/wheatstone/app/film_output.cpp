@@ -5,6 +5,7 @@
 #include <system_error>
 #include <utility>
 
+#include "wheatstone/app/eyes_in_film.h"
 #include "wheatstone/app/film_output_internal.h"
 #include "wheatstone/app/rotoscope_state_file_internal.h"
 #include "wheatstone/error.h"

@@ -25,7 +25,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int reduction = 3, pictures_a_shot = 5;
+constexpr int reduction = 3;
+constexpr std::int64_t pictures_a_shot = 5;
 
 /// A shot as it is looked at.
 struct PreviewedShot {
