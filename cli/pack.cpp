@@ -22,6 +22,7 @@
 #include "wheatstone/app/eyes_in_film.h"
 #include "wheatstone/app/slice_film.h"
 #include "wheatstone/app/slices_of_pictures.h"
+#include "wheatstone/app/write_results.h"
 #include "wheatstone/depth/display_presets.h"
 #include "wheatstone/display/print_frame.h"
 #include "wheatstone/error.h"
@@ -205,7 +206,10 @@ bool makes_slices(const PackArguments& arguments) { return arguments.packing.to 
 PicturesOnSurfaces read_surfaces(const PackArguments& arguments, const Session& session) {
   if (unless_painting(arguments.input)().empty()) {
     report(session.progress, "reading", 0);
-    const Painting painting = read_painting_for_views(arguments.input.files.front());
+    Painting painting = read_painting_for_views(arguments.input.files.front());
+    const int longer = std::max(width_of(painting), height_of(painting));
+    if (arguments.max_size > 0 && arguments.max_size < longer)
+      painting = scaled(painting, static_cast<double>(arguments.max_size) / longer);
     return pictures_on_surfaces(sliced(painting, arguments.input.slicing));
   }
   if (!is_photograph(arguments.input) || is_photograph_folder(arguments.input))
@@ -319,7 +323,8 @@ Rows pack_rows(PackArguments& a) {
   Rows walk = folder_rows(a.walk, on_folder, "packed", "; {to}, the format");
   walk.push_back(contact_sheet_row(a.walk, on_folder));
   const auto on_films = [&a] { return are_films(a.input.files, a.output); };
-  max_size.help = "Match a reduced copy whose longer side has at most this many pixels";
+  max_size.help =
+      "Match a reduced copy whose longer side has at most this many pixels; slices of a painting get this size";
   Rows rows =
       join({views_rows(a.input, are_made),
             {views_device_row(a.input),
@@ -340,10 +345,10 @@ Rows pack_rows(PackArguments& a) {
   for (Row& row : rows)
     if (std::ranges::find(for_films, name_of(row)) == for_films.end())
       row.unless.insert(row.unless.begin(), when(on_films, "on a film; it works on pictures"));
-  constexpr std::array<std::string_view, 7> for_slices{
-      "VIEWS", "--output", "--to", "--zero-parallax", "--slice-layer", "--slice-depth", "--slice-keep"};
-  constexpr std::array<std::string_view, 8> for_slices_of_photographs{
-      "--layout", "--swap", "--rectify", "--max-size", "--depth", "--depth-model", "--depth-is", "--strength"};
+  constexpr std::array<std::string_view, 8> for_slices{
+      "VIEWS", "--output", "--max-size", "--to", "--zero-parallax", "--slice-layer", "--slice-depth", "--slice-keep"};
+  constexpr std::array<std::string_view, 7> for_slices_of_photographs{
+      "--layout", "--swap", "--rectify", "--depth", "--depth-model", "--depth-is", "--strength"};
   for (Row& row : rows) {
     if (std::ranges::find(for_slices, name_of(row)) != for_slices.end()) continue;
     const bool of_photographs =

@@ -340,6 +340,7 @@ TEST(PackCommand, MakesSlicesOfAPaintingWhoseDepthIsChosenWhenTheyAreShown) {
     words.insert(words.end(), {"--to", "slices"});
     expect_refused(folder, words, code, why);
   };
+  EXPECT_EQ(slices_of({"--max-size", "160", "-o", "small.exr"})["width"], 160);
   // A photograph has slices, too, of its own depth or matched.
   run_in(folder, {"pack", "left.png", "right.png", "--to", "slices", "--max-size", "160", "-o", "pair.exr"});
   EXPECT_EQ(nlohmann::json::parse(run_in(folder, {"info", "pair.exr", "--json"}).output)["width"], 160);

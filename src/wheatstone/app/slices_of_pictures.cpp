@@ -85,7 +85,8 @@ class Slicer {
     for (const Surface& surface : surfaces.seen)
       for (const int plane : {0, planes.count - 1})
         farthest = std::max(farthest, std::abs((surface.view - central_view) * planes.disparity_px(plane)));
-    margin_ = std::min(static_cast<int>(std::ceil(farthest)) + 1, pictures.front().width());
+    const int width = pictures.front().width();
+    margin_ = static_cast<int>(std::ceil(std::min(farthest + 1, static_cast<float>(width))));
   }
 
   Slice slice(int plane) const {
@@ -99,8 +100,9 @@ class Slicer {
  private:
   /// The column of a plane in which the first column of a surface lies.
   int first_column(const Surface& surface, int plane) const {
-    const auto shift = static_cast<int>(std::lround((surface.view - central_view) * planes_.disparity_px(plane)));
-    return surface.left_px + shift + margin_;
+    constexpr float most_px = 1 << 20;  // more leaves every picture
+    const float shift_px = (surface.view - central_view) * planes_.disparity_px(plane);
+    return surface.left_px + margin_ + static_cast<int>(std::lround(std::clamp(shift_px, -most_px, most_px)));
   }
 
   /// What surfaces before this one in the list tell stays: they are seen first.

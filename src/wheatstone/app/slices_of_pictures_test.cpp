@@ -70,6 +70,16 @@ TEST(SlicesOfAPainting, HaveTheScreenPlaneWhereItIsWanted) {
   EXPECT_NEAR(middle.slices.front().parallax_px, -middle.slices.back().parallax_px, 1);
 }
 
+TEST(SlicesOfAPainting, TakeWildSurfacesWithoutHarm) {
+  Painting wild = painting_of_still();
+  Image<float> disparity(320, 240, 4);
+  for (int x = 0; x < 320; ++x) disparity(x, 9) = x % 2 == 0 ? 5e7f : -5e7f;
+  wild.surfaces.seen.front().disparity = KnownRuns(disparity);
+  wild.surfaces.seen.back().view = ViewPosition(1000.f);
+  wild.surfaces.seen.back().left_px = 65535;
+  EXPECT_LE(slices_of(pictures_on_surfaces(wild)).slices.size(), 64);
+}
+
 TEST(SlicesOfAPainting, AreRefusedWithoutSurfaces) {
   Painting apart = painting_of_still();
   apart.surfaces.seen.clear();
