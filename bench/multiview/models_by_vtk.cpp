@@ -32,6 +32,7 @@
 #include <string>
 #include <thread>
 
+#include "multiview/scene_around_model.h"
 #include "stopwatch.h"
 #include "wheatstone/depth/camera.h"
 #include "wheatstone/multiview/render_model.h"
@@ -44,18 +45,6 @@ using namespace wheatstone;
 namespace {
 
 constexpr int width = 640, height = 480;
-
-ModelScene scene_around(const Model& model) {
-  const ModelBounds bounds = bounds_of(model);
-  const auto radius = static_cast<float>(bounds.radius());
-  ModelScene scene;
-  scene.origin = bounds.middle();
-  scene.camera = camera_around({0, 0, 0}, radius, width, height, {.zoom = 1.3f});
-  const auto& [x, y, z] = scene.camera.position;
-  const float distance = std::hypot(x, y, z);
-  scene.mapping = {{{distance - radius, -20}, {distance + radius, 20}}};
-  return scene;
-}
 
 vtkNew<vtkPoints> points_of(const Model& model, const ModelScene& scene) {
   vtkNew<vtkPoints> points;
@@ -186,7 +175,7 @@ double outlines_differ(const Image<Rgb8>& ours, const vtkUnsignedCharArray& thei
 
 bool compare(const std::string& name, const Model& model) {
   constexpr int runs = 7;
-  ModelScene scene = scene_around(model);
+  ModelScene scene = bench::scene_around(model, width, height);
   scene.look.background = {0, 0, 0};
   const Rig one = evenly_spaced(width, height, 1);
   Image<Rgb8> ours;

@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "multiview/scene_around_model.h"
 #include "stopwatch.h"
 #include "wheatstone/depth/camera.h"
 #include "wheatstone/multiview/render_model.h"
@@ -23,18 +24,6 @@ using namespace wheatstone;
 namespace {
 
 constexpr int width = 640, height = 480;
-
-ModelScene scene_around(const Model& model) {
-  const ModelBounds bounds = bounds_of(model);
-  const auto radius = static_cast<float>(bounds.radius());
-  ModelScene scene;
-  scene.origin = bounds.middle();
-  scene.camera = camera_around({0, 0, 0}, radius, width, height, {.zoom = 1.3f});
-  const auto& [x, y, z] = scene.camera.position;
-  const float distance = std::hypot(x, y, z);
-  scene.mapping = {{{distance - radius, -20}, {distance + radius, 20}}};
-  return scene;
-}
 
 /// The median longer side of the triangles' boxes in the central view, in pixels.
 double median_size_px(const Model& model, const ModelScene& scene) {
@@ -70,7 +59,7 @@ int main(int argc, char** argv) {
              "exact ms", "incremental", "ratio", "with any number of views");
   bool is_same = true;
   const auto compare = [&](const std::string& name, const Model& model) {
-    const ModelScene scene = scene_around(model);
+    const ModelScene scene = bench::scene_around(model, width, height);
     const double size = median_size_px(model, scene);
     std::array<double, 2> incremental_s{};
     constexpr std::array<int, 2> view_counts{9, 45};

@@ -12,6 +12,7 @@
 #include "wheatstone/stereo/outer_view.h"
 
 namespace wheatstone {
+
 void check_has_surfaces(const Surfaces& surfaces) {
   if (surfaces.seen.empty())
     throw Error(ErrorKind::bad_input,

@@ -10,6 +10,7 @@
 
 #include "wheatstone/app/display_views.h"
 #include "wheatstone/image/colour.h"
+#include "wheatstone/multiview/cropped_slice.h"
 
 namespace wheatstone {
 namespace {
@@ -57,26 +58,6 @@ int last_plane(std::span<const float> run, std::size_t at, const Planes& planes)
   return planes.of(farthest);
 }
 
-/// The part of a plane that something lies in.
-Slice cropped(const Image<LinearRgba>& plane, int margin) {
-  int left = plane.width(), right = 0, top = plane.height(), bottom = 0;
-  for (int y = 0; y < plane.height(); ++y)
-    for (int x = 0; x < plane.width(); ++x) {
-      if (plane(x, y).a == 0) continue;
-      left = std::min(left, x);
-      right = std::max(right, x + 1);
-      top = std::min(top, y);
-      bottom = y + 1;
-    }
-  Slice slice{.left = left - margin, .top = top, .pixels = {}};
-  if (right <= left) return slice;
-  slice.pixels = Image<LinearRgba>(right - left, bottom - top);
-  for (int y = top; y < bottom; ++y)
-    std::ranges::copy(plane.row(y).subspan(static_cast<std::size_t>(left), static_cast<std::size_t>(right - left)),
-                      slice.pixels.row(y - top).begin());
-  return slice;
-}
-
 class Slicer {
  public:
   Slicer(const Surfaces& surfaces, std::span<const Image<Rgb8>> pictures, const Planes& planes)
@@ -94,7 +75,9 @@ class Slicer {
     Image<LinearRgba> pixels(reference.width() + 2 * margin_, reference.height());
     for (std::size_t i = 0; i < surfaces_.seen.size(); ++i) lay(surfaces_.seen[i], pictures_[i], plane, pixels);
     go_on_behind(plane, pixels);
-    return cropped(pixels, margin_);
+    Slice slice = cropped_slice(pixels.width(), pixels.height(), [&](int x, int y) { return pixels(x, y); });
+    slice.left -= margin_;
+    return slice;
   }
 
  private:

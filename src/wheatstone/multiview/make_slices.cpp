@@ -1,4 +1,5 @@
 #include "wheatstone/multiview/make_slices.h"
+#include "wheatstone/multiview/cropped_slice.h"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
@@ -111,24 +112,9 @@ LinearRgba SliceMaker::State::at(int plane, int x, int y) {
 }
 
 Slice SliceMaker::State::crop(int plane) {
-  const int width = right() - left();
-  int first_x = width;
-  int end_x = 0;
-  int first_y = rig.height;
-  int end_y = 0;
-  for (int y = 0; y < rig.height; ++y)
-    for (int x = 0; x < width; ++x) {
-      if (at(plane, x, y) == LinearRgba{}) continue;
-      first_x = std::min(first_x, x);
-      end_x = std::max(end_x, x + 1);
-      first_y = std::min(first_y, y);
-      end_y = y + 1;
-    }
-  Slice slice{.parallax_px = planes.parallaxes[plane], .left = left() + first_x, .top = first_y, .pixels = {}};
-  if (end_x <= first_x) return slice;
-  slice.pixels = Image<LinearRgba>(end_x - first_x, end_y - first_y);
-  for (int y = first_y; y < end_y; ++y)
-    for (int x = first_x; x < end_x; ++x) slice.pixels(x - first_x, y - first_y) = at(plane, x, y);
+  Slice slice = cropped_slice(right() - left(), rig.height, [&](int x, int y) { return at(plane, x, y); });
+  slice.parallax_px = planes.parallaxes[plane];
+  slice.left += left();
   return slice;
 }
 
