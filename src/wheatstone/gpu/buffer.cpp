@@ -9,17 +9,39 @@
 
 namespace wheatstone {
 
-GpuBuffer::GpuBuffer(std::size_t bytes) : GpuBuffer(bytes, true) {}
+namespace {
 
-GpuBuffer::GpuBuffer(std::size_t bytes, bool cleared) : bytes_(std::max<std::size_t>(bytes, 4)) {
+/// Drivers are not asked for what no program can take: they do not all refuse it.
+void check_size(std::size_t bytes) {
+  GLint64 most = 0;
+  glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &most);
+  if (bytes > static_cast<std::size_t>(most))
+    throw Error(
+        ErrorKind::wrong_usage,
+        fmt::format("graphics processor: its programs take {} MB at once at most, and {} MB are needed; --device cpu "
+                    "needs no such room",
+                    most >> 20, (bytes >> 20) + 1));
+}
+
+}  // namespace
+
+GpuBuffer::GpuBuffer(std::size_t bytes) : GpuBuffer(bytes, nullptr) { clear(); }
+
+// Values are given with the storage: a driver was seen to clear a buffer of over 20 kB after they had been written.
+GpuBuffer::GpuBuffer(std::span<const std::byte> values)
+    : GpuBuffer(values.size(), values.empty() ? nullptr : values.data()) {
+  if (values.empty()) clear();
+}
+
+GpuBuffer::GpuBuffer(std::size_t bytes, const std::byte* values) : bytes_(std::max<std::size_t>(bytes, 4)) {
+  check_size(bytes_);
   glCreateBuffers(1, &name_);
-  glNamedBufferStorage(name_, static_cast<GLsizeiptr>(bytes_), nullptr, GL_DYNAMIC_STORAGE_BIT);
+  glNamedBufferStorage(name_, static_cast<GLsizeiptr>(bytes_), values, GL_DYNAMIC_STORAGE_BIT);
   if (glGetError() == GL_OUT_OF_MEMORY) {
     glDeleteBuffers(1, &name_);
     throw Error(ErrorKind::wrong_usage,
                 fmt::format("graphics processor: its memory does not hold another {} MB", (bytes_ >> 20) + 1));
   }
-  if (cleared) clear();
 }
 
 GpuBuffer::~GpuBuffer() {
@@ -34,17 +56,7 @@ void GpuBuffer::clear(std::size_t at, std::size_t bytes) {
                             GL_UNSIGNED_INT, nullptr);
 }
 
-void GpuBuffer::bind(std::uint32_t binding) const {
-  GLint64 most = 0;
-  glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &most);
-  if (bytes_ > static_cast<std::size_t>(most))
-    throw Error(
-        ErrorKind::wrong_usage,
-        fmt::format("graphics processor: its programs take {} MB at once at most, and {} MB are needed; --device cpu "
-                    "needs no such room",
-                    most >> 20, (bytes_ >> 20) + 1));
-  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, name_);
-}
+void GpuBuffer::bind(std::uint32_t binding) const { glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, name_); }
 
 void GpuBuffer::bind_uniforms() const {
   constexpr std::size_t always_fits = 16384;

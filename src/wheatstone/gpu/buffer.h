@@ -11,14 +11,14 @@ namespace wheatstone {
 /// Memory of the graphics processor. Made and used within on_gpu().
 class GpuBuffer {
  public:
-  /// Its bytes are 0. Throws Error{wrong_usage} where the memory does not suffice.
+  /// Its bytes are 0. Throws Error{wrong_usage} where the memory does not suffice or no program takes as much.
   explicit GpuBuffer(std::size_t bytes);
   template <class Value>
-  explicit GpuBuffer(std::span<const Value> values) : GpuBuffer(values.size_bytes()) {
-    write(values);
+  explicit GpuBuffer(std::span<const Value> values) : GpuBuffer(std::as_bytes(values)) {
+    static_assert(std::is_trivially_copyable_v<Value>);
   }
   /// Its bytes are what they happen to be.
-  static GpuBuffer of_any_bytes(std::size_t bytes) { return {bytes, false}; }
+  static GpuBuffer of_any_bytes(std::size_t bytes) { return {bytes, nullptr}; }
   ~GpuBuffer();
   GpuBuffer(GpuBuffer&& other) noexcept
       : name_(std::exchange(other.name_, 0)), texels_(std::exchange(other.texels_, 0)), bytes_(other.bytes_) {}
@@ -51,7 +51,8 @@ class GpuBuffer {
   void bind_texels(std::uint32_t unit) const;
 
  private:
-  GpuBuffer(std::size_t bytes, bool cleared);
+  explicit GpuBuffer(std::span<const std::byte> values);
+  GpuBuffer(std::size_t bytes, const std::byte* values);
   void write_bytes(std::span<const std::byte> bytes, std::size_t at);
   void read_bytes(std::span<std::byte> bytes) const;
 
