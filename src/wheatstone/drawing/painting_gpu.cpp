@@ -110,8 +110,9 @@ void PaintingOnGpu::draw(std::span<const ViewToDraw> views) {
       for (const ViewToDraw& view : some) positions.push_back(view.position);
       std::vector<std::uint32_t> pixels(size * some.size());
       drawn({std::move(positions), backgrounds_of(some)}).read(std::span(pixels));
-      for (std::size_t v = 0; v < some.size(); ++v)
+      for_each_view(some.size(), [&](std::size_t v) {
         take(std::span(pixels).subspan(v * size, size), contents_.width, contents_.height, some[v].drawn);
+      });
     }
   });
 }

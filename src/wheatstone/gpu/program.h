@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <initializer_list>
@@ -50,6 +52,13 @@ const GpuProgram& kept_program(const GpuSource& source, std::initializer_list<Gp
 /// Groups of `size` that cover `count`.
 constexpr std::uint32_t groups_of(std::size_t count, std::size_t size) {
   return static_cast<std::uint32_t>((count + size - 1) / size);
+}
+
+/// The same in rows that no driver finds too long: how many a row has, and rows.
+constexpr std::array<std::uint32_t, 2> rows_of_groups(std::size_t count, std::size_t size) {
+  constexpr std::uint32_t longest = 32768;
+  const std::uint32_t groups = groups_of(count, size);
+  return {std::min(groups, longest), (groups + longest - 1) / longest};
 }
 
 }  // namespace wheatstone

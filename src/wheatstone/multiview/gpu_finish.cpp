@@ -135,8 +135,9 @@ void finish_on_gpu(const GpuPictures& pictures, const ToneMap& tone,
   }
   std::vector<std::uint32_t> pixels(pictures.pixels(0) * views.size());
   colours.read(std::span(pixels));
-  for (std::size_t v = 0; v < views.size(); ++v)
+  for_each_view(views.size(), [&](std::size_t v) {
     unpack(std::span(pixels).subspan(v * pictures.pixels(0), pictures.pixels(0)), views[v]);
+  });
 }
 
 GpuCompositor::GpuCompositor(const GpuPictures& planes, LightOnGpu light, Resampling resampling,

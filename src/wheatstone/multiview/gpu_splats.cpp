@@ -142,13 +142,6 @@ GpuBuffer projection_tables(const Projection& projection) {
   return GpuBuffer(std::span<const std::array<float, 4>>(tables));
 }
 
-/// Groups of 64 invocations in rows that no driver finds too long.
-std::array<std::uint32_t, 2> rows_of_groups(std::size_t count) {
-  constexpr std::uint32_t longest = 32768;
-  const std::uint32_t groups = groups_of(count, 64);
-  return {std::min(groups, longest), (groups + longest - 1) / longest};
-}
-
 /// The input of light_of_sums.comp.
 enum Gathered : std::int32_t { sums_of_steps = 0, nearest_discs = 1, other_light = 2 };
 
@@ -156,7 +149,7 @@ enum Gathered : std::int32_t { sums_of_steps = 0, nearest_discs = 1, other_light
 GpuBuffer light_of(const GpuBuffer& sums, GpuTargets targets) {
   const std::size_t values = sums.bytes() / sum_bytes;
   GpuBuffer light = GpuBuffer::of_any_bytes(values * sizeof(float));
-  const auto [columns, rows] = rows_of_groups(values);
+  const auto [columns, rows] = rows_of_groups(values, 64);
   kept_program(light_of_sums_source, {{"FROM", targets == GpuTargets::discs_in_views ? nearest_discs : sums_of_steps}})
       .run({columns, rows}, {&sums, &light});
   return light;
@@ -252,7 +245,7 @@ class ParticleGatherer {
 /// Adds one light to another of the same groups.
 void add_light(const std::vector<GpuBuffer>& more, const std::vector<GpuBuffer>& to) {
   for (std::size_t g = 0; g < to.size(); ++g) {
-    const auto [columns, rows] = rows_of_groups(to[g].bytes() / sizeof(float));
+    const auto [columns, rows] = rows_of_groups(to[g].bytes() / sizeof(float), 64);
     kept_program(light_of_sums_source, {{"FROM", other_light}}).run({columns, rows}, {&more[g], &to[g]});
   }
 }

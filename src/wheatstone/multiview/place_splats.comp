@@ -68,8 +68,13 @@ layout(std430, binding = 2) writeonly buffer Entries { vec4 entries[]; };
 
 #if KERNEL == DISC
 
-// As the processor keeps numbers (struct Splat).
-vec2 halves(vec2 numbers) { return unpackHalf2x16(packHalf2x16(numbers)); }
+// As the processor keeps numbers (struct Splat), to the nearest half. packHalf2x16 may round otherwise.
+vec2 halves(vec2 numbers) {
+  const float least_normal = 1.0 / 16384, least_step = 1.0 / 16777216;
+  uvec2 bits = floatBitsToUint(numbers);
+  vec2 normal = uintBitsToFloat((bits + 0xfffu + (bits >> 13 & 1u)) & ~0x1fffu);
+  return mix(normal, roundEven(numbers / least_step) * least_step, lessThan(abs(numbers), vec2(least_normal)));
+}
 
 // Its place, parallax and radius; its light, and what decides between two that are equally near.
 void take(InLists splat) {
