@@ -19,9 +19,10 @@ Report run(const ViewArguments& arguments, const Session& session) {
 }  // namespace
 
 Command view_command() {
-  return make_command("view", "Open paintings, photographs, films, slices or particles in a window", view_rows, run,
+  return make_command("view", "Open paintings, photographs, films, slices, particles or models in a window", view_rows,
+                      run,
                       R"(
-Click: what lies there comes onto the screen plane. Drag: pan, or turn particles. Wheel: zoom.
+Click: what lies there comes onto the screen plane. Drag: pan, or turn particles or a model. Wheel: zoom.
 ?: all keys and commands.
 
 Examples:
@@ -30,6 +31,7 @@ Examples:
   wheatstone view photographs
   wheatstone view film.mp4 --mode left-right
   wheatstone view universe.hdf5 --display looking-glass-portrait
+  wheatstone view model.glb --mode red-cyan
   wheatstone view universe.hdf5 --camera path.toml --quantity column-density)");
 }
 

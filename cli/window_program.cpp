@@ -48,9 +48,9 @@ double screen_width_mm(const StudyRunArguments& arguments, int width_px) {
 Rows view_rows(ViewArguments& a) {
   return {
       row("FILE", texts(a.files),
-          "Paintings (.wst), stereo photographs, films, pictures with depth, quilts, slices (.exr), particles, or a "
-          "series of snapshots ('snap_%03d.hdf5'), or a folder of photographs; two pictures of one scene are its left "
-          "and right view"),
+          "Paintings (.wst), stereo photographs, films, pictures with depth, quilts, slices (.exr), particles, "
+          "models of triangles, a series of snapshots ('snap_%03d.hdf5'), or a folder of photographs; two pictures of "
+          "one scene are its left and right view"),
       row("--mode", text(a.mode), "Output mode, as --to of 'wheatstone pack'; the left eye's picture by default"),
       row("--style", text(a.style), "Style of painted photographs: a preset or a style file"),
       row("--display", text(a.display), "Display, which sets the views of a quilt and the comfortable depth"),

@@ -127,7 +127,7 @@ std::string for_painting(const Session& session, const Item& item, const Painted
   return pack.empty() ? paint : fmt::format("{} && {}", paint, pack);
 }
 
-/// The options of `render` that make particles or slices as deep.
+/// The options of `render` that make particles, models or slices as deep.
 std::string depth_options(const ViewState& state) {
   if (!state.depth_regions.empty()) return mapping_options(state, true);
   const PerceivedDepth depth = perceived_depth(state);
@@ -135,12 +135,13 @@ std::string depth_options(const ViewState& state) {
                      depth.viewing.screen_width_mm, depth.near_mm, depth.far_mm);
 }
 
-/// The options of `render` that make these views of particles.
+/// The options of `render` that make these views of particles or a model.
 std::string view_options(const Session& session, const std::array<double, 3>& origin) {
   const ViewState& state = session.state;
   const Framing& orbit = state.orbit;
   std::string text =
       fmt::format(" --azimuth {} --elevation {} --zoom {}", orbit.azimuth_deg, orbit.elevation_deg, orbit.zoom);
+  if (orbit.orthographic) text += " --projection orthographic";
   if (const auto& at = orbit.look_at)
     text += fmt::format(" --look-at={},{},{}", (*at)[0] + origin[0], (*at)[1] + origin[1], (*at)[2] + origin[2]);
   if (shows_display_views(find_output_mode(state.mode))) {
@@ -189,7 +190,6 @@ std::string look_options(const ViewState& state) {
   if (!look.colours.empty()) text += fmt::format(" --colours {}", look.colours);
   if (look.smallest_px != usual.smallest_px || look.largest_px != usual.largest_px)
     text += fmt::format(" --splat {},{}", look.smallest_px, look.largest_px);
-  if (state.orbit.orthographic) text += " --projection orthographic";
   return text + focus_options(look.focus);
 }
 
@@ -239,8 +239,16 @@ struct LineOf {
     const std::array<double, 3>& origin = content.particles->cloud.origin;
     const std::string options =
         view_options(session, origin) + look_options(session.state) + annotation_options(session.state.look);
-    if (session.film) return fmt::format("wheatstone render{}{}{}", files_of(item), options, film_options(session));
-    return fmt::format("wheatstone render{}{} -o views", files_of(item), options);
+    return rendered(options);
+  }
+  std::string operator()(const ModelContent& content) const {
+    return rendered(view_options(session, content.model->origin));
+  }
+
+  /// `render` with options that make views, or the film of what is shown.
+  std::string rendered(const std::string& options) const {
+    return fmt::format("wheatstone render{}{}{}", files_of(item), options,
+                       session.film ? film_options(session) : std::string(" -o views"));
   }
 };
 

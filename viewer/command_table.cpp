@@ -177,9 +177,7 @@ bool shows_particles(const Viewer& viewer) {
   return std::holds_alternative<ParticlesContent>(viewer.session().opened.content);
 }
 
-bool shows_scene(const Viewer& viewer) {
-  return shows_particles(viewer) || std::holds_alternative<SlicesContent>(viewer.session().opened.content);
-}
+bool shows_scene(const Viewer& viewer) { return is_scene(viewer.session().opened.content); }
 
 const Frame& frame_of(const Viewer& viewer) {
   if (viewer.frame() == nullptr) throw Error(ErrorKind::wrong_usage, "nothing has been drawn yet");

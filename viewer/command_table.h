@@ -120,7 +120,7 @@ inline std::string on_or_off(bool is_on) { return is_on ? "on" : "off"; }
 bool shows_something(const Viewer& viewer);
 bool shows_painting(const Viewer& viewer);
 bool shows_particles(const Viewer& viewer);
-bool shows_scene(const Viewer& viewer);  ///< particles or slices
+bool shows_scene(const Viewer& viewer);  ///< particles, a model or slices
 
 /// Throws Error{wrong_usage} before the first frame.
 const Frame& frame_of(const Viewer& viewer);

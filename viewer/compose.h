@@ -60,11 +60,13 @@ struct Frame {
   std::vector<ViewPlace> places;  ///< where views lie in it; of what covers the whole frame, that of the middle view
   double scale = 1;               ///< screen pixels for one of the content
   bool preliminary = false;       ///< drawn quickly: another drawing with all effort shows more
-  std::optional<Brightness> brightness;  ///< of particles, as all of them have it
-  Content shown;                         ///< what it shows, with its depth as it is seen
-  Content placed;                        ///< the same, without more depth where somebody looks
-  std::optional<DepthEnds> depth;        ///< of that
-  std::vector<PlaneFrame> planes;        ///< slicing planes that can be dragged, from that of the finest layer on
+  std::optional<Brightness> brightness;                          ///< of particles, as all of them have it
+  Content shown;                                                 ///< what it shows, with its depth as it is seen
+  Content placed;                                                ///< the same, without more depth where somebody looks
+  std::optional<DepthEnds> depth;                                ///< of that
+  std::shared_ptr<const std::vector<Image<float>>> model_depth;  ///< of the views at these positions; none: not known
+  std::vector<ViewPosition> model_views;
+  std::vector<PlaneFrame> planes;  ///< slicing planes that can be dragged, from that of the finest layer on
 };
 
 /// The size of the picture that each eye is to have, before a mode puts both in one.

@@ -14,6 +14,7 @@
 #include "wheatstone/error.h"
 #include "wheatstone/marks/painting_file.h"
 #include "wheatstone/matching/not_a_pair.h"
+#include "wheatstone/models/read_model.h"
 #include "wheatstone/multiview/slice_file.h"
 #include "wheatstone/particles/cloud_source.h"
 #include "wheatstone/photograph/carried_depth.h"
@@ -38,6 +39,7 @@ struct SizeOf {
   }
   PictureSize operator()(const SlicesContent& content) const { return {content.slices->width, content.slices->height}; }
   PictureSize operator()(const ParticlesContent& /*content*/) const { return {}; }
+  PictureSize operator()(const ModelContent& /*content*/) const { return {}; }
 };
 
 namespace fs = std::filesystem;
@@ -161,6 +163,13 @@ Opened open_particles(const fs::path& path, const Listeners& listeners) {
   return opened;
 }
 
+Opened open_model(const fs::path& path, const Listeners& listeners) {
+  const auto model = std::make_shared<const ReadyModel>(ready_model(path, {}, listeners.progress));
+  return {ModelContent{model}, "model", model->read.warnings};
+}
+
+bool is_model(const fs::path& path) { return is_named_as_model(path) || holds_model(path); }
+
 Opened open_without_depth(std::span<const fs::path> files, const Listeners& listeners) {
   const fs::path& path = files.front();
   report(listeners.progress, "reading", 0);
@@ -177,6 +186,7 @@ Opened open_without_depth(std::span<const fs::path> files, const Listeners& list
     if (is_multiview_exr(path)) return opened_views(read_multiview_exr(path), "views");
     return {SlicesContent{std::make_shared<const SliceStack>(read_slices(path))}, "slices", {}};
   }
+  if (is_model(path)) return open_model(path, listeners);
   if (holds_particles(path)) return open_particles(path, listeners);
   return open_picture(path, listeners);
 }
@@ -184,6 +194,11 @@ Opened open_without_depth(std::span<const fs::path> files, const Listeners& list
 }  // namespace
 
 PictureSize size_of(const Content& content) { return std::visit(SizeOf(), content); }
+
+bool is_scene(const Content& content) {
+  return std::holds_alternative<ParticlesContent>(content) || std::holds_alternative<ModelContent>(content) ||
+         std::holds_alternative<SlicesContent>(content);
+}
 
 bool has_one_view(const Content& content) {
   const auto* const views = std::get_if<ViewsContent>(&content);
@@ -245,7 +260,7 @@ bool are_eyes_of_one(const fs::path& left, const fs::path& right, const ShowFirs
   if (names_film(left) || names_film(right))
     return names_film(left) && names_film(right) && are_named_as_eyes(left, right);
   for (const fs::path* path : {&left, &right})
-    if (path->extension() == ".wst" || path->extension() == ".exr" || holds_particles(*path) ||
+    if (path->extension() == ".wst" || path->extension() == ".exr" || is_model(*path) || holds_particles(*path) ||
         quilt_of_name(path->filename().string()))
       return false;
   try {

@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include "wheatstone/app/render_model_file.h"
 #include "wheatstone/app/render_particles.h"
 #include "wheatstone/depth/convergence.h"
 #include "wheatstone/marks/painting.h"
@@ -64,11 +65,20 @@ struct ParticlesContent {
   friend bool operator==(const ParticlesContent&, const ParticlesContent&) = default;
 };
 
-/// What is open, as the stage draws it; shared between threads, never changed.
-using Content = std::variant<std::monostate, PaintedContent, ViewsContent, SlicesContent, ParticlesContent>;
+struct ModelContent {
+  std::shared_ptr<const ReadyModel> model;
+  friend bool operator==(const ModelContent&, const ModelContent&) = default;
+};
 
-/// Size of what is open, in its own pixels; {0, 0} where it has none of its own, as particles.
+/// What is open, as the stage draws it; shared between threads, never changed.
+using Content =
+    std::variant<std::monostate, PaintedContent, ViewsContent, SlicesContent, ParticlesContent, ModelContent>;
+
+/// Size of what is open, in its own pixels; {0, 0} where it has none of its own, as particles and models.
 PictureSize size_of(const Content& content);
+
+/// Whether it is a scene whose depth is chosen when it is shown: particles, a model or slices.
+bool is_scene(const Content& content);
 
 /// Whether there is one picture, so that both eyes would see the same.
 bool has_one_view(const Content& content);
@@ -95,9 +105,9 @@ struct Opened {
 using ShowFirst = std::function<void(Opened)>;
 
 /// Opens what a file holds: a painting (.wst), a stereo photograph of two files or one, one picture with its depth, a
-/// quilt, the views of a multi-view OpenEXR, slices, particles or a film. Two files are the eyes of one photograph.
-/// `show` is given a stereo photograph as it came, before it is rectified. Particles are read to show `quantity`; those
-/// of a pattern, "snap_%03d.hdf5", are a series. Throws Error that names the file.
+/// quilt, the views of a multi-view OpenEXR, slices, particles, a model or a film. Two files are the eyes of one
+/// photograph. `show` is given a stereo photograph as it came, before it is rectified. Particles are read to show
+/// `quantity`; those of a pattern, "snap_%03d.hdf5", are a series. Throws Error that names the file.
 Opened open_content(std::span<const std::filesystem::path> files, const Progress& progress = {},
                     const ShowFirst& show = {}, const std::string& quantity = {});
 

@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "inputs.h"
+#include "orbit.h"
 #include "output_mode.h"
 #include "viewer.h"
 #include "wheatstone/depth/comfort.h"
@@ -24,7 +25,7 @@ float mm_a_pixel(const Frame& frame, const ViewState& state) {
   const DisplayPreset& display = find_display(state.display);
   if (shows_display_views(find_output_mode(state.mode)))
     return display.screen_width_mm / static_cast<float>(std::max(size_of(frame.shown).width, 1));
-  if (std::holds_alternative<ParticlesContent>(frame.shown) && !frame.places.empty())
+  if (orbited(frame.shown) && !frame.places.empty())
     return display.screen_width_mm / static_cast<float>(std::max(frame.places.front().width, 1));
   const int screen_px = display.lenses.screen_width_px > 0 ? display.lenses.screen_width_px : display.view_width_px;
   return static_cast<float>(frame.scale) * display.screen_width_mm / static_cast<float>(screen_px);
@@ -39,8 +40,7 @@ float behind_mm(const Frame& frame, const ViewState& state, float disparity_px) 
 
 /// The whole scene is where its regions have it, though what is open is as it was.
 bool is_placed_as_drawn(const Frame& frame, const ViewState& state) {
-  return !state.depth_regions.empty() &&
-         (std::holds_alternative<ParticlesContent>(frame.shown) || shows_display_views(find_output_mode(state.mode)));
+  return !state.depth_regions.empty() && (orbited(frame.shown) || shows_display_views(find_output_mode(state.mode)));
 }
 
 std::string side_of_screen(float behind) {

@@ -7,6 +7,7 @@
 #include "command_line.h"
 #include "command_table.h"
 #include "folder_items.h"
+#include "orbit.h"
 #include "particle_film.h"
 #include "particle_scene.h"
 #include "save_as.h"
@@ -239,7 +240,7 @@ void load_camera(Viewer& viewer, const Words& words) {
 }
 
 void add_key(Viewer& viewer, const Words& /*words*/) {
-  if (open_particles(viewer) == nullptr) return viewer.tell("no particles are open", true);
+  if (!turns_around(viewer)) return viewer.tell("no particles and no model are open", true);
   const CameraKey key = key_here(viewer.session());
   viewer.take_camera_path(with_key(viewer.session(), key));
   viewer.tell(fmt::format("keyframe at {:.3g}, {} in all; go to another time and add the next", key.at,
@@ -264,12 +265,23 @@ void save_camera(Viewer& viewer, const Words& words) {
 
 constexpr Command camera_table[] = {
     // name, arguments, menu, text, keys
-    {"camera", "FILE", "Particles", "Open a camera path…", "", load_camera},
-    {"add-key", "", "Particles", "Add a keyframe to the camera path", "K", add_key, {.begins_group = true}},
-    {"remove-key", "", "Particles", "Remove the nearest keyframe", "Shift+K", remove_key},
-    {"clear-camera", "", "Particles", "Remove all keyframes", "",
-     [](Viewer& v, const Words&) { v.take_camera_path({}); }},
-    {"save-camera", "FILE", "Particles", "Save the camera path…", "", save_camera},
+    {"camera", "FILE", "Particles", "Open a camera path…", "", load_camera, {.applies = turns_around}},
+    {"add-key",
+     "",
+     "Particles",
+     "Add a keyframe to the camera path",
+     "K",
+     add_key,
+     {.applies = turns_around, .begins_group = true}},
+    {"remove-key", "", "Particles", "Remove the nearest keyframe", "Shift+K", remove_key, {.applies = turns_around}},
+    {"clear-camera",
+     "",
+     "Particles",
+     "Remove all keyframes",
+     "",
+     [](Viewer& v, const Words&) { v.take_camera_path({}); },
+     {.applies = turns_around}},
+    {"save-camera", "FILE", "Particles", "Save the camera path…", "", save_camera, {.applies = turns_around}},
 };
 
 }  // namespace

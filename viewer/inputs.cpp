@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "depth_seen.h"
+#include "orbit.h"
 #include "particle_scene.h"
 #include "viewer.h"
 #include "wheatstone/depth/warp_row.h"
@@ -185,11 +186,8 @@ std::optional<float> disparity_under(const Viewer& viewer, double x, double y) {
   const Frame* const frame = viewer.frame();
   const std::optional<PlaceInView> place = frame != nullptr ? place_at(frame->places, x, y) : std::nullopt;
   if (!place) return {};
-  const Session& session = viewer.session();
-  const Particles* const particles = open_particles(viewer);
-  if (particles == nullptr) return disparity_at(frame->shown, *place);
-  const Scene scene = particle_scene(*particles, session.state, eyes_of(viewer));
-  const std::optional<SeenParticle> seen = particle_at(*particles, scene, *place);
+  if (!turns_around(viewer)) return disparity_at(frame->shown, *place);
+  const std::optional<SeenPoint> seen = point_at(viewer, *place);
   return seen ? std::optional(-seen->parallax_px) : std::nullopt;
 }
 

@@ -7,6 +7,7 @@
 #include "command_table.h"
 #include "depth_seen.h"
 #include "inputs.h"
+#include "orbit.h"
 #include "output_mode.h"
 #include "particle_scene.h"
 #include "wheatstone/depth/display_presets.h"
@@ -23,10 +24,8 @@ void take_mode(Viewer& viewer, std::string_view mode) {
   const Content& content = session.opened.content;
   if (has_one_view(content)) return;
   const bool is_empty = std::holds_alternative<std::monostate>(content);
-  const bool is_scene =
-      std::holds_alternative<ParticlesContent>(content) || std::holds_alternative<SlicesContent>(content);
-  if (is_empty || !is_scene) session.usual_modes.pictures = mode;
-  if (is_empty || is_scene) session.usual_modes.scenes = mode;
+  if (is_empty || !is_scene(content)) session.usual_modes.pictures = mode;
+  if (is_empty || is_scene(content)) session.usual_modes.scenes = mode;
 }
 
 void look_with(Viewer& viewer, const Words& words) {
@@ -71,7 +70,7 @@ double scale_of(Viewer& viewer) {
 
 /// The place in the content that lies in the middle stays there.
 void zoom_by(Viewer& viewer, double factor) {
-  if (magnify_particles(viewer, factor)) return;
+  if (magnify_orbit(viewer, factor)) return;
   state_of(viewer).framed.zoom = std::clamp(scale_of(viewer) * factor, 1. / 64, 64.);
 }
 
@@ -79,14 +78,14 @@ void zoom_at(Viewer& viewer, const Words& words) {
   const double factor = number_of(words[0], 1. / 64, 64), x = number_of(words[1]), y = number_of(words[2]);
   const Frame& frame = frame_of(viewer);
   const double before = scale_of(viewer);
-  if (open_particles(viewer) == nullptr) zoom_by(viewer, factor);
+  if (!turns_around(viewer)) zoom_by(viewer, factor);
   Framed& framed = state_of(viewer).framed;
   for (const ViewPlace& place : frame.places) {
     const double in_x = (x - place.left) / place.squeeze_x, in_y = (y - place.top) / place.squeeze_y;
     const double width = place.width / place.squeeze_x, height = place.height / place.squeeze_y;
     if (in_x < 0 || in_y < 0 || in_x >= width || in_y >= height) continue;
     // What is at the pointer stays at the pointer.
-    if (magnify_particles(viewer, factor, in_x - width / 2, in_y - height / 2)) return;
+    if (magnify_orbit(viewer, factor, in_x - width / 2, in_y - height / 2)) return;
     framed.pan_x += (in_x - width / 2) * (1 / before - 1 / framed.zoom);
     framed.pan_y += (in_y - height / 2) * (1 / before - 1 / framed.zoom);
     return;
@@ -94,7 +93,7 @@ void zoom_at(Viewer& viewer, const Words& words) {
 }
 
 void pan(Viewer& viewer, const Words& words) {
-  if (pan_particles(viewer, number_of(words[0]), number_of(words[1]))) return;
+  if (pan_orbit(viewer, number_of(words[0]), number_of(words[1]))) return;
   const double scale = scale_of(viewer);
   Framed& framed = state_of(viewer).framed;
   framed.pan_x -= number_of(words[0]) / scale;
@@ -213,7 +212,7 @@ constexpr Command looking_table[] = {
     {"zoom-out", "", "View", "Zoom out", "-", [](Viewer& v, const Words&) { zoom_by(v, 1 / zoom_step); }},
     {"fit", "", "View", "Fit into the window", "0",
      [](Viewer& v, const Words&) {
-       if (!fit_particles(v)) state_of(v).framed = {};
+       if (!fit_orbit(v)) state_of(v).framed = {};
      }},
     {"actual-size", "", "View", "Actual size", "1", [](Viewer& v, const Words&) { state_of(v).framed.zoom = 1; }},
     {"pan", "X Y", "View", "Move the picture, in screen pixels", "", pan},

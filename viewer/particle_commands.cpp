@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "command_table.h"
+#include "orbit.h"
 #include "particle_scene.h"
 #include "wheatstone/app/annotate.h"
 #include "wheatstone/error.h"
@@ -21,22 +22,20 @@ void orbit(Viewer& viewer, const Words& words) {
 }
 
 void look_at(Viewer& viewer, const Words& words) {
-  const Particles* const particles = open_particles(viewer);
-  if (particles == nullptr) throw Error(ErrorKind::wrong_usage, "no particles are open");
+  const std::optional<Orbited> open = orbited(viewer.session().opened.content);
+  if (!open) throw Error(ErrorKind::wrong_usage, "no particles and no model are open");
   std::array<float, 3> point{};
   for (std::size_t axis = 0; axis < 3; ++axis)
-    point[axis] = static_cast<float>(number_of(words[axis]) - particles->cloud.origin[axis]);
+    point[axis] = static_cast<float>(number_of(words[axis]) - open->origin[axis]);
   state_of(viewer).orbit.look_at = point;
 }
 
 void look_at_place(Viewer& viewer, const Words& words) {
-  const Particles* const particles = open_particles(viewer);
   const std::optional<PlaceInView> place = place_at(frame_of(viewer).places, number_of(words[0]), number_of(words[1]));
-  if (particles == nullptr || !place) return;
-  const std::optional<SeenParticle> seen =
-      particle_at(*particles, particle_scene(*particles, state_of(viewer), eyes_of(viewer)), *place);
+  if (!turns_around(viewer) || !place) return;
+  const std::optional<SeenPoint> seen = point_at(viewer, *place);
   if (!seen) {
-    viewer.tell("there are no particles there");
+    viewer.tell("there is nothing there");
     return;
   }
   state_of(viewer).orbit.look_at = seen->position;
@@ -130,16 +129,36 @@ std::vector<Choice> colour_choices(const Viewer& /*viewer*/) {
 
 constexpr Command particle_table[] = {
     // name, arguments, menu, text, keys
-    {"orbit", "AZIMUTH ELEVATION", "Particles", "Turn around the particles, in degrees", "", orbit},
+    {"orbit",
+     "AZIMUTH ELEVATION",
+     "Particles",
+     "Turn around particles or a model, in degrees",
+     "",
+     orbit,
+     {.applies = turns_around}},
     {"magnify",
      "FACTOR",
      "Particles",
-     "Magnification of particles",
+     "Magnification of particles or a model",
      "",
      [](Viewer& v, const Words& w) { state_of(v).orbit.zoom = static_cast<float>(number_of(w[0], 0.01, 1e6)); },
-     {.now = [](const Viewer& v) { return fmt::format("{}", v.session().state.orbit.zoom); }, .range = {0.1, 20, 0.1}}},
-    {"look-at", "X Y Z", "Particles", "Point at the centre of the view, around which it turns", "", look_at},
-    {"look-at-place", "X Y", "Particles", "Look at the particles at a place on the screen", "", look_at_place},
+     {.now = [](const Viewer& v) { return fmt::format("{}", v.session().state.orbit.zoom); },
+      .range = {0.1, 20, 0.1},
+      .applies = turns_around}},
+    {"look-at",
+     "X Y Z",
+     "Particles",
+     "Point at the centre of the view, around which it turns",
+     "",
+     look_at,
+     {.applies = turns_around}},
+    {"look-at-place",
+     "X Y",
+     "Particles",
+     "Look at what is at a place on the screen",
+     "",
+     look_at_place,
+     {.applies = turns_around}},
     {"exposure",
      "VALUE|auto",
      "Particles",
@@ -187,7 +206,7 @@ constexpr Command particle_table[] = {
     {"near",
      "MM|auto",
      "Particles",
-     "Depth before the screen: of particles or slices, in mm",
+     "Depth before the screen: of particles, a model or slices, in mm",
      "",
      [](Viewer& v, const Words& w) { set_depth(v, &ParticleLook::near_mm, w[0]); },
      {.now = [](const Viewer& v) { return depth_now(v, &ParticleLook::near_mm); },
@@ -196,7 +215,7 @@ constexpr Command particle_table[] = {
     {"far",
      "MM|auto",
      "Particles",
-     "Depth behind the screen: of particles or slices, in mm",
+     "Depth behind the screen: of particles, a model or slices, in mm",
      "",
      [](Viewer& v, const Words& w) { set_depth(v, &ParticleLook::far_mm, w[0]); },
      {.now = [](const Viewer& v) { return depth_now(v, &ParticleLook::far_mm); },
@@ -265,12 +284,13 @@ PictureSize size_of_view(const Viewer& viewer) {
   return {eyes.width, eyes.height};
 }
 
-void change_focus(Viewer& viewer, const ScreenFocus& focus) {
+bool shows_focus(const Viewer& viewer) {
   const Content& content = viewer.session().opened.content;
-  const bool has_focus = std::holds_alternative<ParticlesContent>(content) ||
-                         std::holds_alternative<SlicesContent>(content) ||
-                         std::holds_alternative<std::monostate>(content);
-  if (!has_focus)
+  return std::holds_alternative<ParticlesContent>(content) || std::holds_alternative<SlicesContent>(content);
+}
+
+void change_focus(Viewer& viewer, const ScreenFocus& focus) {
+  if (!shows_focus(viewer) && shows_something(viewer))
     throw Error(ErrorKind::wrong_usage, "there are no particles or slices; 'gaze-depth' is for paintings");
   if (const Particles* const particles = open_particles(viewer); particles != nullptr && focus.at) {
     const Rig eyes = eyes_of(viewer);
@@ -370,7 +390,8 @@ constexpr Command quantity_table[] = {
      {.now =
           [](const Viewer& v) {
             return v.session().state.orbit.orthographic ? std::string("orthographic") : std::string("perspective");
-          }}},
+          },
+      .applies = turns_around}},
     {"annotate",
      "on|off",
      "Particles",
@@ -410,7 +431,7 @@ constexpr Command quantity_table[] = {
      [](Viewer& v, const Words& w) { set_focus_number(v, &ScreenFocus::radius, number_of(w[0], 0.001, 10)); },
      {.now = [](const Viewer& v) { return fmt::format("{}", v.session().state.look.focus.radius); },
       .range = {0.05, 1, 0.05},
-      .applies = shows_scene}},
+      .applies = shows_focus}},
     {"focus-gain",
      "FACTOR",
      "Depth",
@@ -419,7 +440,7 @@ constexpr Command quantity_table[] = {
      [](Viewer& v, const Words& w) { set_focus_number(v, &ScreenFocus::gain, number_of(w[0], 0, 10)); },
      {.now = [](const Viewer& v) { return fmt::format("{}", v.session().state.look.focus.gain); },
       .range = {0, 4, 0.1},
-      .applies = shows_scene}},
+      .applies = shows_focus}},
 };
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "orbit.h"
 #include "wheatstone/app/snapshot_series.h"
 #include "wheatstone/error.h"
 #include "wheatstone/video/frame_sequence.h"
@@ -15,12 +16,6 @@ namespace {
 constexpr double interval_s = 2;  ///< from a snapshot to the next
 constexpr double path_s = 10;     ///< of one snapshot
 constexpr double longest_s = 120;
-
-const Particles& particles_of(const Session& session) {
-  const auto* const content = std::get_if<ParticlesContent>(&session.opened.content);
-  if (content == nullptr) throw Error(ErrorKind::wrong_usage, "no particles are open");
-  return *content->particles;
-}
 
 /// Steps of a path that differ by less show one frame.
 double half_a_frame(const Session& session) {
@@ -86,16 +81,20 @@ std::optional<std::filesystem::path> series_of_files(const std::vector<std::file
   return std::ranges::all_of(files, is_of_it) && holds_particles(files.front()) ? pattern : std::nullopt;
 }
 
+std::span<const double> times_of(const Session& session) {
+  return session.opened.reader ? std::span(session.opened.reader->times()) : std::span<const double>();
+}
+
 std::optional<double> particle_film_s(const Session& session) {
-  if (!session.opened.reader) return {};
-  const std::size_t snapshots = session.opened.reader->times().size();
+  if (!orbited(session.opened.content)) return {};
+  const std::size_t snapshots = times_of(session).size();
   if (snapshots > 0) return std::min(static_cast<double>(snapshots - 1) * interval_s, longest_s);
   if (session.camera_path.keys.empty()) return {};
   return path_s;
 }
 
 double series_time(const Session& session) {
-  const std::vector<double>& times = session.opened.reader->times();
+  const std::span<const double> times = times_of(session);
   const double share = session.state.share;
   const double time =
       camera_at(session.camera_path, share).time.value_or(std::lerp(times.front(), times.back(), share));
@@ -107,20 +106,21 @@ void look_along(Session& session) {
   Framing& orbit = session.state.orbit;
   turn_as(key, orbit);
   if (!key.centre) return;
-  const std::array<double, 3>& origin = particles_of(session).cloud.origin;
+  const std::array<double, 3> origin = orbited(session.opened.content)->origin;
   orbit.look_at.emplace();
   for (std::size_t axis = 0; axis < 3; ++axis)
     (*orbit.look_at)[axis] = static_cast<float>((*key.centre)[axis] - origin[axis]);
 }
 
 CameraKey key_here(const Session& session) {
-  const Particles& particles = particles_of(session);
+  const std::optional<Orbited> open = orbited(session.opened.content);
+  if (!open) throw Error(ErrorKind::wrong_usage, "no particles and no model are open");
   const Framing& orbit = session.state.orbit;
   constexpr float most_zoom = 1000;  // in a path, as of render
   if (orbit.zoom > most_zoom)
     throw Error(ErrorKind::wrong_usage,
                 fmt::format("the magnification is {}, a keyframe has at most {}", orbit.zoom, most_zoom));
-  const std::array<float, 3> middle = orbit.look_at.value_or(particles.statistics.centre());
+  const std::array<float, 3> middle = orbit.look_at.value_or(open->middle);
   CameraKey key{.at = session.state.share,
                 .azimuth_deg = orbit.azimuth_deg,
                 .elevation_deg = orbit.elevation_deg,
@@ -128,11 +128,11 @@ CameraKey key_here(const Session& session) {
                 .zoom = orbit.zoom,
                 .centre = std::array<double, 3>()};
   for (std::size_t axis = 0; axis < 3; ++axis)
-    (*key.centre)[axis] = static_cast<double>(middle[axis]) + particles.cloud.origin[axis];
+    (*key.centre)[axis] = static_cast<double>(middle[axis]) + open->origin[axis];
   const std::vector<CameraKey>& keys = session.camera_path.keys;
   // Where the path says when, so do all of its keys; elsewhere time goes on evenly.
   if (std::ranges::any_of(keys, [](const CameraKey& other) { return other.time.has_value(); }))
-    key.time = session.opened.reader->times().empty() ? std::nullopt : std::optional(series_time(session));
+    key.time = times_of(session).empty() ? std::nullopt : std::optional(series_time(session));
   return key;
 }
 

@@ -46,7 +46,11 @@ std::optional<std::filesystem::path> series_of_files(const std::vector<std::file
 
 constexpr double particle_frames_a_second = 25;
 
-/// How long a series of particles plays, or a camera's path, in seconds; none where there is neither.
+/// The times of the snapshots of a series; none of anything else.
+std::span<const double> times_of(const Session& session);
+
+/// How long a series of particles plays, or a camera's path around particles or a model, in seconds; none where there
+/// is neither.
 std::optional<double> particle_film_s(const Session& session);
 
 /// The time of a series at the state's share of it, as ParticleFrames has it.
@@ -55,7 +59,7 @@ double series_time(const Session& session);
 /// Looks from where the camera's path is at the state's share of it.
 void look_along(Session& session);
 
-/// A keyframe of how the state looks at particles. Throws Error{wrong_usage} where none are open.
+/// A keyframe of how the state looks at particles or a model. Throws Error{wrong_usage} where neither is open.
 CameraKey key_here(const Session& session);
 
 /// The path with a key, in place of one that is less than half a frame away.

@@ -25,7 +25,6 @@ struct Candidate {
   float depth, parallax_px, light;
 };
 
-constexpr double quick_s = 0.1;
 constexpr std::size_t least_particles = 20'000;  ///< which are drawn as quickly as none
 
 template <class Value>
@@ -52,8 +51,6 @@ Cloud every_nth(const Cloud& cloud, std::size_t every) {
   some.box_size = cloud.box_size;
   return some;
 }
-
-constexpr float least_zoom = 0.01f, most_zoom = 1e6f;
 
 }  // namespace
 
@@ -111,7 +108,7 @@ Scene particle_scene(const Particles& particles, const ViewState& state, const R
   return scene_of(particles.statistics, render_options(state, rig));
 }
 
-std::optional<SeenParticle> particle_at(const Particles& particles, const Scene& scene, const PlaceInView& place) {
+std::optional<SeenPoint> particle_at(const Particles& particles, const Scene& scene, const PlaceInView& place) {
   constexpr std::size_t most_looked_at = 1'000'000;
   const Cloud& cloud = particles.cloud;
   const Camera& camera = scene.camera;
@@ -140,26 +137,7 @@ std::optional<SeenParticle> particle_at(const Particles& particles, const Scene&
   const float brightest = std::ranges::max_element(found, {}, &Candidate::light)->light;
   std::erase_if(found, [brightest](const Candidate& one) { return one.light < brightest / 2; });
   const Candidate nearest = *std::ranges::min_element(found, {}, &Candidate::depth);
-  const float right = (static_cast<float>(place.x) - view * nearest.parallax_px - camera.centre_x_px) / camera.focal_px;
-  const float down = (static_cast<float>(place.y) - camera.centre_y_px) / camera.focal_px;
-  SeenParticle seen{.parallax_px = nearest.parallax_px};
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    seen.position[axis] = camera.position[axis] + nearest.depth * (camera.forward[axis] + right * camera.right[axis] +
-                                                                   down * camera.down[axis]);
-  return seen;
-}
-
-std::array<float, 3> moved_look_at(const Particles& particles, const ViewState& state, const Rig& rig, double x_px,
-                                   double y_px) {
-  const std::array<float, 3> middle = state.orbit.look_at.value_or(particles.statistics.centre());
-  const Camera camera = particle_scene(particles, state, rig).camera;
-  std::array<float, 3> moved{}, from_camera{};
-  for (std::size_t axis = 0; axis < 3; ++axis) from_camera[axis] = middle[axis] - camera.position[axis];
-  const float units_a_pixel = dot(from_camera, camera.forward) / camera.focal_px;
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    moved[axis] = middle[axis] - units_a_pixel * (static_cast<float>(x_px) * camera.right[axis] +
-                                                  static_cast<float>(y_px) * camera.down[axis]);
-  return moved;
+  return SeenPoint{point_at_depth({camera, scene.mapping}, place, nearest.depth), nearest.parallax_px};
 }
 
 std::size_t ParticleDrawer::share_for(std::size_t particles) const {
@@ -222,38 +200,6 @@ DrawnParticles ParticleDrawer::draw(const std::shared_ptr<const Particles>& part
 const Particles* open_particles(const Viewer& viewer) {
   const auto* const content = std::get_if<ParticlesContent>(&viewer.session().opened.content);
   return content != nullptr ? content->particles.get() : nullptr;
-}
-
-Rig eyes_of(const Viewer& viewer) {
-  const ViewState& state = viewer.session().state;
-  const PictureSize eye = eye_size(find_output_mode(state.mode), viewer.viewport());
-  const EyePositions positions = eye_positions(state);
-  return {std::max(eye.width, 1), std::max(eye.height, 1), {positions.left, positions.right}};
-}
-
-bool pan_particles(Viewer& viewer, double x_px, double y_px) {
-  const Particles* const particles = open_particles(viewer);
-  if (particles == nullptr) return false;
-  ViewState& state = viewer.session().state;
-  state.orbit.look_at = moved_look_at(*particles, state, eyes_of(viewer), x_px, y_px);
-  return true;
-}
-
-bool magnify_particles(Viewer& viewer, double factor, double x_px, double y_px) {
-  if (open_particles(viewer) == nullptr) return false;
-  float& zoom = viewer.session().state.orbit.zoom;
-  const float before = zoom;
-  zoom = std::clamp(before * static_cast<float>(factor), least_zoom, most_zoom);
-  const double magnified = zoom / before;
-  return (x_px == 0 && y_px == 0) || pan_particles(viewer, x_px * (1 - magnified), y_px * (1 - magnified));
-}
-
-bool fit_particles(Viewer& viewer) {
-  if (open_particles(viewer) == nullptr) return false;
-  wheatstone::Framing& orbit = viewer.session().state.orbit;
-  orbit.zoom = ViewState().orbit.zoom;
-  orbit.look_at.reset();
-  return true;
 }
 
 }  // namespace wheatstone::viewer

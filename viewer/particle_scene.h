@@ -7,6 +7,7 @@
 
 #include "compose.h"
 #include "content.h"
+#include "orbit.h"
 #include "view_state.h"
 #include "wheatstone/app/render_particles.h"
 #include "wheatstone/depth/rig.h"
@@ -30,24 +31,16 @@ std::optional<Focus> focus_in(const ScreenFocus& focus, int width, int height);
 /// Error{wrong_usage} where these make no sense.
 Scene particle_scene(const Particles& particles, const ViewState& state, const Rig& rig);
 
-/// What is seen at a place of a view of particles: the nearest of those that shine the brightest there.
-struct SeenParticle {
-  std::array<float, 3> position{};  ///< on the line of sight through the place
-  float parallax_px = 0;            ///< on the screen, of a view at full eye separation
-};
-/// None where no particle is near the place. Of very many particles only some are looked at.
-std::optional<SeenParticle> particle_at(const Particles& particles, const Scene& scene, const PlaceInView& place);
-
-/// The framing's point in the middle of the views, moved so that what the central view shows moves by so many pixels.
-/// `rig` says how large the views are.
-std::array<float, 3> moved_look_at(const Particles& particles, const ViewState& state, const Rig& rig, double x_px,
-                                   double y_px);
+/// What is seen at a place of a view of particles: the nearest of those that shine the brightest there. None where no
+/// particle is near the place. Of very many particles only some are looked at.
+std::optional<SeenPoint> particle_at(const Particles& particles, const Scene& scene, const PlaceInView& place);
 
 /// How well something is drawn.
 enum class Effort {
-  quick,  ///< within a tenth of a second or so: for what moves
+  quick,  ///< within quick_s or so: for what moves
   whole,
 };
+constexpr double quick_s = 0.1;
 
 struct DrawnParticles {
   std::vector<Image<Rgb8>> views;
@@ -77,18 +70,5 @@ class ParticleDrawer {
 
 /// The particles that are open; none where something else is.
 const Particles* open_particles(const Viewer& viewer);
-
-/// The views that a viewer's two eyes are shown.
-Rig eyes_of(const Viewer& viewer);
-
-/// Moves what is seen of particles by so many pixels of an eye's picture. Does nothing, and returns false, where
-/// something else is open.
-bool pan_particles(Viewer& viewer, double x_px, double y_px);
-
-/// Magnifies particles so many times more; what lies so far from the middle of an eye's picture stays there.
-bool magnify_particles(Viewer& viewer, double factor, double x_px = 0, double y_px = 0);
-
-/// Shows particles as when they were opened.
-bool fit_particles(Viewer& viewer);
 
 }  // namespace wheatstone::viewer

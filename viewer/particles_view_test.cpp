@@ -4,14 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <string>
 #include <vector>
 
-#include "cli/run.h"
 #include "command_line.h"
 #include "command_table.h"
+#include "command_views.h"
 #include "inputs.h"
+#include "orbit.h"
 #include "particle_scene.h"
 #include "psnr.h"
 #include "temporary_folder.h"
@@ -23,15 +23,6 @@
 namespace wheatstone::viewer::particles_view_test {
 
 using testing::HasSubstr;
-
-std::string run_command(const TemporaryFolder& folder, Words words) {
-  words.erase(words.begin());
-  for (std::string& word : words)
-    if (word == "views") word = folder / "views";
-  std::ostringstream output, errors;
-  EXPECT_EQ(cli::run_command_line(words, output, errors), 0) << errors.str();
-  return output.str();
-}
 
 /// A viewer in which particles are open: a cloud around the middle, and one particle far from it.
 class OpenParticles : public testing::Test {
@@ -53,20 +44,9 @@ class OpenParticles : public testing::Test {
   }
   /// How like what is shown is to what the command makes that it tells: the worse eye's PSNR.
   double likeness_to_command() {
-    const std::string line = command_line_of(viewer.session());
-    SCOPED_TRACE(line);
-    run_command(folder, words_of(line));
-    double worst = 1000;
-    for (const int eye : {0, 1}) {
-      const Image<Rgb8> made = read_image(folder / fmt::format("views/view_00{}.png", eye));
-      EXPECT_EQ(made.width() * 2, picture().width());
-      Image<Rgb8> shown(made.width(), made.height());
-      for (int y = 0; y < made.height(); ++y)
-        std::ranges::copy(picture().row(y).subspan(eye * static_cast<std::size_t>(made.width()), made.row(y).size()),
-                          shown.row(y).begin());
-      worst = std::min(worst, psnr_db(shown, made));
-    }
-    return worst;
+    SCOPED_TRACE(command_line_of(viewer.session()));
+    const auto made = views_of_told(viewer, folder);
+    return std::min(psnr_db(shown_to(viewer, 0), made[0]), psnr_db(shown_to(viewer, 1), made[1]));
   }
   void run(std::string_view line) {
     run_line(viewer, line);
@@ -91,16 +71,9 @@ TEST_F(OpenParticles, AreTheViewsOfTheCommandThatTheyTell) {
   run("separation 0.8");
   for (const char* opaque : {"off", "on"}) {
     run(fmt::format("opaque {}", opaque));
-    const std::string line = command_line_of(viewer.session());
-    run_command(folder, words_of(line));
-    const Image<Rgb8> left = read_image(folder / "views/view_000.png"),
-                      right = read_image(folder / "views/view_001.png");
-    ASSERT_EQ(left.width() * 2, picture().width()) << line;
-    for (int y = 0; y < left.height(); ++y)
-      for (int x = 0; x < left.width(); ++x) {
-        ASSERT_EQ(picture()(x, y), left(x, y)) << line << "\nat " << x << ", " << y;
-        ASSERT_EQ(picture()(x + left.width(), y), right(x, y)) << line << "\nat " << x << ", " << y;
-      }
+    const auto made = views_of_told(viewer, folder);
+    for (const int eye : {0, 1})
+      EXPECT_EQ(shown_to(viewer, eye), made[static_cast<std::size_t>(eye)]) << command_line_of(viewer.session());
   }
 }
 
@@ -277,8 +250,8 @@ TEST_F(OpenParticles, RefuseWhatMakesNoSense) {
 TEST(OpenSlices, StandAsDeepAsAsked) {
   const TemporaryFolder folder;
   write_whole_file(folder / "cloud.csv", "x,y,z\n0,0,0\n4,4,0\n-4,-4,0\n1,0,3\n");
-  run_command(folder, {"wheatstone", "render", folder / "cloud.csv", "--size", "120x80", "--save-slices",
-                       folder / "slices.exr", "-o", folder / "unused"});
+  run_told(folder, {"wheatstone", "render", folder / "cloud.csv", "--size", "120x80", "--save-slices",
+                    folder / "slices.exr", "-o", folder / "unused"});
   Viewer viewer;
   viewer.session().items.push_back({folder / "slices.exr"});
   viewer.set_viewport({240, 80});
@@ -293,7 +266,7 @@ TEST(OpenSlices, StandAsDeepAsAsked) {
     run_line(viewer, asked);
     viewer.wait();
     const std::string line = command_line_of(viewer.session());
-    run_command(folder, words_of(line));
+    run_told(folder, words_of(line));
     const Image<Rgb8> left = read_image(folder / "views/view_000.png");
     EXPECT_NE(left, before) << line;
     for (int y = 0; y < 80; ++y)

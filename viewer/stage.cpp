@@ -315,6 +315,8 @@ Frame Stage::draw_eyes(const Content& content, const ViewState& state, const Vie
   frame.scale = fit.scale;
   frame.preliminary = drawn.preliminary;
   frame.brightness = drawn.brightness;
+  frame.model_depth = drawn.depth;
+  if (drawn.depth) frame.model_views = drawn.positions;
   return frame;
 }
 

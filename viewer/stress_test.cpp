@@ -44,7 +44,7 @@ std::string one_of(Random& random, const Range& range) {
   return std::string(range[any(random, std::size(range))]);
 }
 
-/// A painting, a photograph, slices, particles, and a file that is none of them.
+/// A painting, a photograph, slices, particles, a model, and a file that is none of them.
 std::vector<std::string> small_files(const TemporaryFolder& folder) {
   const SyntheticStill still = make_synthetic_still({.width = 96, .height = 64, .samples_a_side = 1});
   write_painting(folder / "painting.wst", plan_painting(still.pictures, still.geometry, {}));
@@ -60,11 +60,12 @@ std::vector<std::string> small_files(const TemporaryFolder& folder) {
   for (int particle = 0; particle < 300; ++particle)
     table += fmt::format("{:.4f} {:.4f} {:.4f}\n", place(random), place(random), place(random));
   write_whole_file(folder / "particles.txt", table);
+  write_whole_file(folder / "model.obj", "v 0 0 0\nv 3 0 0\nv 0 2 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n");
   write_whole_file(folder / "damaged.wst", "no painting");
   std::vector<std::string> names;
   write_jps(folder / "pair.jps", still.pictures.left, still.pictures.right);
-  for (const char* name :
-       {"painting.wst", "slices.exr", "particles.txt", "damaged.wst", "missing.wst", "left.png", "pair.jps"})
+  for (const char* name : {"painting.wst", "slices.exr", "particles.txt", "model.obj", "damaged.wst", "missing.wst",
+                           "left.png", "pair.jps"})
     names.push_back(folder / name);
   return names;
 }

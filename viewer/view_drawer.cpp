@@ -56,9 +56,7 @@ std::vector<Image<Rgb8>> slice_views(const SliceStack& stack, const std::vector<
 }  // namespace
 
 ViewDrawer::Placing ViewDrawer::placing_of(const Content& content, const ViewState& state) {
-  const bool has_depth_of_its_own =
-      std::holds_alternative<ParticlesContent>(content) || std::holds_alternative<SlicesContent>(content);
-  if (has_depth_of_its_own) return {state.orbit, state.look, state.display, state.depth_regions};
+  if (is_scene(content)) return {state.orbit, state.look, state.display, state.depth_regions};
   Placing placing;
   placing.regions = state.depth_regions;
   return placing;
@@ -146,6 +144,13 @@ const DrawnViews& ViewDrawer::painted(const Content& content, const ViewState& s
              .brightness = made.brightness};
     // The state will say what was found.
     if (made.of_all) keep_brightness(placing.look, made.brightness);
+  } else if (const auto* const model = std::get_if<ModelContent>(&content)) {
+    DrawnModel made = models_.draw(*model->model, state, {part.width, part.height, positions}, effort);
+    views = {.pictures = std::move(made.views),
+             .positions = positions,
+             .scale = made.scale,
+             .preliminary = made.scale < 1,
+             .depth = std::move(made.depth)};
   }
   drawn_ = Drawn{content, part, state.slicing, std::move(placing), positions, std::move(views)};
   return drawn_->views;
@@ -187,6 +192,8 @@ const std::vector<Image<Rgb8>>& ViewDrawer::display_views(const Content& content
     views = slice_views(placed_slices(*slices, state), rig.positions, state);
   } else if (const auto* const particles = std::get_if<ParticlesContent>(&content)) {
     views = particles_.draw(particles->particles, state, rig, Effort::whole).views;
+  } else if (const auto* const model = std::get_if<ModelContent>(&content)) {
+    views = models_.draw(*model->model, state, rig, Effort::whole).views;
   }
   display_ = DisplayDrawn{content, state.display, zero_parallax_px, placing, std::move(views)};
   return display_->views;

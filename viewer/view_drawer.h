@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "content.h"
+#include "model_drawer.h"
 #include "particle_scene.h"
 #include "view_state.h"
 #include "wheatstone/depth/view_position.h"
@@ -29,6 +30,7 @@ struct DrawnViews {
   int left = 0, top = 0;                 ///< of the pictures' corner, in pixels of the content `scale` times as large
   bool preliminary = false;              ///< drawn quickly: another drawing with all effort shows more
   std::optional<Brightness> brightness;  ///< of particles
+  std::shared_ptr<const std::vector<Image<float>>> depth = {};  ///< of a model: DrawnModel::depth
 };
 
 /// Draws views of what is open, and keeps what the next drawing can use again. Of one thread.
@@ -109,6 +111,7 @@ class ViewDrawer {
   bool photographed_with_depth_ = false;
   std::optional<DisplayDrawn> display_;
   ParticleDrawer particles_;
+  ModelDrawer models_;
   struct PlacedSlices {
     SlicesContent content;
     Placing placing;

@@ -230,10 +230,8 @@ void Viewer::post_failure(const std::exception& error, std::uint64_t job) {
 
 void Viewer::take_usual_mode() {
   const Content& content = session_.opened.content;
-  const bool is_scene =
-      std::holds_alternative<ParticlesContent>(content) || std::holds_alternative<SlicesContent>(content);
   const UsualModes& usual = session_.usual_modes;
-  session_.state.mode = has_one_view(content) ? "left" : is_scene ? usual.scenes : usual.pictures;
+  session_.state.mode = has_one_view(content) ? "left" : is_scene(content) ? usual.scenes : usual.pictures;
 }
 
 void Viewer::forget_touches() {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "orbit.h"
 #include "particle_film.h"
 #include "viewer.h"
 #include "wheatstone/error.h"
@@ -28,8 +29,7 @@ std::string moment_told(const Session& session, double time) {
 }  // namespace
 
 void Viewer::take_particles() {
-  const Particles* const particles = particles_of(session_);
-  if (particles == nullptr) return;
+  if (!orbited(session_.opened.content)) return;
   const std::optional<double> duration_s = particle_film_s(session_);
   if (!duration_s) {
     session_.film.reset();
@@ -52,8 +52,7 @@ void Viewer::show_particles_at(double seconds) {
   film.frame = std::llround(film.seconds * particle_frames_a_second);
   session_.state.share = film.seconds / film.duration_s;
   if (!session_.camera_path.keys.empty()) look_along(session_);
-  const std::vector<double>& times = session_.opened.reader->times();
-  if (!times.empty()) film.moment = moment_told(session_, series_time(session_));
+  if (!times_of(session_).empty()) film.moment = moment_told(session_, series_time(session_));
 }
 
 void Viewer::move_particles(double passed_s) {
@@ -68,7 +67,7 @@ void Viewer::read_wanted_particles() {
   const Particles* const particles = particles_of(session_);
   if (particles == nullptr || !session_.opened.reader || reads_particles_ || session_.opening) return;
   const std::string& quantity = session_.state.look.quantity;
-  const bool is_series = !session_.opened.reader->times().empty();
+  const bool is_series = !times_of(session_).empty();
   const double time = is_series ? series_time(session_) : 0;
   const bool other_quantity = quantity_name_of(quantity) != particles->quantity;
   if (!other_quantity && (!is_series || time == particles->time || time == failed_time_)) return;

@@ -19,12 +19,12 @@ constexpr std::array<std::array<const char*, 2>, 10> pointer_keys{
     {{"C, held", "The photograph"},
      {"Click", "Put the screen plane at the depth of this place"},
      {"Double click", "Full screen"},
-     {"Drag", "Move the picture, or turn particles"},
-     {"Shift + drag", "Move particles"},
+     {"Drag", "Move the picture, or turn particles or a model"},
+     {"Shift + drag", "Move particles or a model"},
      {"Wheel", "Zoom at the pointer"},
      {"Ctrl + wheel", "More or less detail"},
      {"Alt + wheel", "Move the slicing plane"},
-     {"Ctrl + click", "Look at the particles that lie there"},
+     {"Ctrl + click", "Look at what lies there"},
      {"Ctrl + Shift + click", "More depth of particles there"}}};
 
 QTreeWidgetItem* add_heading(QTreeWidget& tree, const QString& text) {

@@ -166,7 +166,7 @@ void on_message_of_qt(QtMsgType type, const QMessageLogContext& /*context*/, con
 }
 
 int run_view(int argc, char** argv) {
-  CLI::App program("Look at paintings, photographs, slices and particles in a window", "wheatstone-view");
+  CLI::App program("Look at paintings, photographs, slices, particles and models in a window", "wheatstone-view");
   ViewArguments arguments;
   cli::add_rows(program, cli::view_rows(arguments));
   program.add_option("--threads", arguments.threads, "Number of threads; 0 uses all processors");

@@ -73,7 +73,8 @@ QWidget* StartPage::make_left_column() {
   QObject::connect(example, &QPushButton::clicked, this, [this] { do_command_("open-example", {}); });
   layout->addWidget(example);
   drop_ = new QLabel(
-      "Drop files here:\na painting, a stereo photograph,\nits two pictures, a film,\nslices or particles", column);
+      "Drop files here:\na painting, a stereo photograph,\nits two pictures, a film,\nslices, particles or a model",
+      column);
   drop_->setAlignment(Qt::AlignCenter);
   layout->addWidget(drop_, 1);
   take_colours();

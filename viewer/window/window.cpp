@@ -26,7 +26,7 @@
 #include "save_dialog.h"
 #include "theme.h"
 #include "viewer/depth_seen.h"
-#include "viewer/particle_scene.h"
+#include "viewer/orbit.h"
 #include "wheatstone/error.h"
 #include "wheatstone/pictures/write_image.h"
 
@@ -300,7 +300,7 @@ bool Window::pointer_event(QEvent* event) {
         do_line("focus-at", {fmt::format("{}", pressed_at_.x()), fmt::format("{}", pressed_at_.y())});
       } else if (!held.testFlag(Qt::ControlModifier)) {
         click_timer_.start(click_delay_ms);
-      } else if (open_particles(viewer_) != nullptr) {
+      } else if (turns_around(viewer_)) {
         do_line("look-at-place", {fmt::format("{}", pressed_at_.x()), fmt::format("{}", pressed_at_.y())});
       }
       return true;
@@ -349,7 +349,7 @@ void Window::drag_to(const QPointF& place) {
     return do_line("slice-move",
                    {fmt::format("{}", *held_plane_), fmt::format("{:.6f}", std::clamp(along / way_squared, -1., 1.))});
   }
-  const bool orbits = !pans_ && open_particles(viewer_) != nullptr;
+  const bool orbits = !pans_ && turns_around(viewer_);
   const double scale = orbits ? degrees_a_pixel : 1;
   do_line(orbits ? "orbit" : "pan",
           {fmt::format("{}", (orbits ? -1 : 1) * scale * moved.x()), fmt::format("{}", scale * moved.y())});

@@ -3,6 +3,8 @@
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>
 #include <fmt/format.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 #include <array>
 #include <mutex>
@@ -210,6 +212,10 @@ void on_gpu(const std::function<void(const GpuFacts&)>& work) {
     throw;
   }
   release(context);
+}
+
+void for_each_view(std::size_t views, const std::function<void(std::size_t view)>& work) {
+  tbb::this_task_arena::isolate([&] { tbb::parallel_for(std::size_t{0}, views, work); });
 }
 
 }  // namespace wheatstone

@@ -45,4 +45,8 @@ std::string why_left_by_gpu();
 /// Error{wrong_usage} where there is no graphics processor or it fails: "graphics processor: ...".
 void on_gpu(const std::function<void(const GpuFacts& facts)>& work);
 
+/// Does work of the processor for each view, in parallel, within on_gpu(). Meanwhile no thread that does it begins
+/// other work, which could wait for the turn that this one has.
+void for_each_view(std::size_t views, const std::function<void(std::size_t view)>& work);
+
 }  // namespace wheatstone

@@ -1,8 +1,5 @@
 #pragma once
 
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -36,13 +33,6 @@ inline void unpack(std::span<const std::uint32_t> pixels, ImageView<Rgb8> pictur
       picture.row(y)[x] = {static_cast<std::uint8_t>(colour), static_cast<std::uint8_t>(colour >> 8),
                            static_cast<std::uint8_t>(colour >> 16)};
     }
-}
-
-/// Does work of the processor for each view, in parallel, within on_gpu(). Meanwhile no thread that does it begins
-/// other work, which could wait for the turn that this one has.
-template <class Work>
-void for_each_view(std::size_t views, const Work& work) {
-  tbb::this_task_arena::isolate([&] { tbb::parallel_for(std::size_t{0}, views, work); });
 }
 
 }  // namespace wheatstone

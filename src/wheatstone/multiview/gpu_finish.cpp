@@ -8,6 +8,7 @@
 
 #include "composite_planes_source.h"
 #include "finish_views_source.h"
+#include "wheatstone/gpu/gpu.h"
 #include "wheatstone/gpu/program.h"
 
 namespace wheatstone {
