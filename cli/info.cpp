@@ -336,7 +336,7 @@ DescribedKind described_kind_of(const InfoArguments& a) {
   const fs::path path = a.file;
   if (is_film(path)) return DescribedKind::film;
   if (path.extension() == ".wst") return DescribedKind::painting;
-  if (is_named_as_model(path) || holds_model(path)) return DescribedKind::model;
+  if (is_model(path)) return DescribedKind::model;
   if (is_particles(path)) return DescribedKind::particles;
   if (a.scale) return DescribedKind::disparity;
   const ImageDescription picture = describe_image(path);

@@ -253,37 +253,6 @@ Reason one_view(const PaintArguments& a) {
   };
 }
 
-Rows model_rows(PaintArguments& a) {
-  RenderParticlesOptions& seen = a.model;
-  constexpr static std::array<Choice<UpAxis>, 3> axes{
-      {{"auto", UpAxis::by_format}, {"y", UpAxis::y}, {"z", UpAxis::z}}};
-  seen.framing.zoom = Framing().zoom;
-  // About 3 % of the width from the nearest point to the farthest.
-  seen.depth.near_mm = 55;
-  seen.depth.far_mm = 60;
-  return under(
-      "Models",
-      {row("--azimuth", number(seen.framing.azimuth_deg, {-360, 360}),
-           "Direction that the camera looks from, in degrees"),
-       row("--elevation", number(seen.framing.elevation_deg, elevation_range),
-           "Height of the camera above the horizon, in degrees"),
-       row("--fov", number(seen.framing.field_of_view_deg, field_of_view_range),
-           "Horizontal field of view, in degrees"),
-       row("--zoom", number(seen.framing.zoom, zoom_range), "Magnification: 2 shows half as much"),
-       row("--picture-size", size(a.model_size, view_side_range), "Size of the painted pictures: WIDTHxHEIGHT"),
-       row("--up", choice(seen.model.choice.up, axes),
-           "Axis of the model that is up; auto: y in OBJ and glTF, z in PLY and STL"),
-       row("--crease", number(seen.model.choice.crease_deg, crease_range_deg),
-           "For models without normals: triangles that meet at a larger angle than this, in degrees, have an edge "
-           "between them"),
-       row("--model-texture", of_type("FILE", text(seen.model.choice.texture)),
-           "Texture picture for a model that names none"),
-       row("--model-background", parsed(seen.model.background, parse_colour, "COLOUR", "#3a3e44"),
-           "Colour around the model")},
-      {printing(a),
-       when([&a] { return !is_model_file(a); }, "on files other than models; it works on models of triangles")});
-}
-
 Rows file_rows(PaintArguments& a) {
   const Reason no_disparity =
       when([&a] { return a.disparity.empty(); }, "without --disparity, which is that of the left view");
@@ -388,7 +357,10 @@ Rows paint_rows(PaintArguments& a) {
   return join({file_rows(a), viewing_rows(a), slicing_rows(a.slicing, {printing(a), on_photographs(a)}), walk_rows(a),
                display_view_rows(a.display, {printing(a)}), drawing_rows(a),
                under({}, depth_rows(a.depth, no_depth, no_map), {printing(a), again(a), on_model(a)}), style,
-               under({}, match_rows(a.matching), {printing(a), again(a), known}), model_rows(a)});
+               under({}, match_rows(a.matching), {printing(a), again(a), known}),
+               under("Models", model_rows(a.model),
+                     {printing(a), when([&a] { return !is_model_file(a); },
+                                        "on files other than models; it works on models of triangles")})});
 }
 
 }  // namespace

@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <map>
 
-#include "wheatstone/app/render_model_file.h"
 #include "wheatstone/depth/display_presets.h"
 #include "wheatstone/error.h"
 #include "wheatstone/files/whole_file.h"
@@ -34,11 +33,7 @@ bool are_left_and_right(const PaintArguments& arguments) {
 /// Renders what is to be painted, with its exact disparities and what only other views show.
 PaintSubject read_model_subject(const PaintArguments& arguments, const PhotographJob& job,
                                 PaintPhotographOptions& options, const Session& session) {
-  RenderParticlesOptions seen = arguments.model;
-  seen.width = arguments.model_size.width;
-  seen.height = arguments.model_size.height;
-  const ReadyModel model = ready_model(job.left, seen, session.progress);
-  ModelPictures made = model_pictures(model, seen, widest_views, session.progress);
+  ModelPictures made = render_model_argument(job.left, arguments.model, widest_views, session);
   options.left_disparity = std::move(made.left_disparity);
   options.right_disparity = std::move(made.right_disparity);
   options.known = std::move(made.known);
@@ -72,9 +67,7 @@ bool is_model_file(const PaintArguments& arguments) {
   return arguments.files.size() == 1 && is_model({.left = arguments.files.front()});
 }
 
-bool is_model(const PhotographJob& job) {
-  return job.right.empty() && (is_named_as_model(job.left) || holds_model(job.left));
-}
+bool is_model(const PhotographJob& job) { return job.right.empty() && wheatstone::is_model(job.left); }
 
 bool is_photograph_folder(const PaintArguments& arguments) {
   return arguments.files.size() == 1 && is_folder(arguments.files.front());

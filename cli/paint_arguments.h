@@ -8,12 +8,12 @@
 #include "depth_argument.h"
 #include "display_argument.h"
 #include "match_options.h"
+#include "model_argument.h"
 #include "options.h"
 #include "photograph_folder.h"
 #include "stereo_arguments.h"
 #include "style_options.h"
 #include "wheatstone/app/paint_photograph.h"
-#include "wheatstone/app/render_particles.h"
 #include "wheatstone/app/write_results.h"
 #include "wheatstone/marks/mapped_depth.h"
 #include "wheatstone/marks/slicing.h"
@@ -39,8 +39,7 @@ struct PaintArguments {
   double scale = 1;
   Slicing slicing;  ///< of a painting that is drawn again
   DisplayArguments display;
-  RenderParticlesOptions model;       ///< how a model of triangles is seen
-  PictureSize model_size{1200, 900};  ///< of its pictures
+  ModelArguments model;
   bool measure = false;
   MatchArguments matching;
   StyleArguments style;

@@ -77,7 +77,7 @@ ViewsOutput output_of(const PaintArguments& arguments, const std::string& name) 
   output.inputs.emplace_back(arguments.depth.file);
   output.inputs.emplace_back(arguments.detail_map);
   output.inputs.emplace_back(arguments.depth.model);
-  output.inputs.push_back(arguments.model.model.choice.texture);
+  output.inputs.push_back(arguments.model.seen.model.choice.texture);
   for (const std::string& disparity : {arguments.disparity, arguments.right_disparity}) {
     output.inputs.emplace_back(disparity);
     output.inputs.emplace_back(disparity.substr(0, disparity.rfind(':')));  // FILE:SCALE

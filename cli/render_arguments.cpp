@@ -51,9 +51,7 @@ bool reads_slices(const RenderArguments& arguments) {
   return std::filesystem::path(arguments.file).extension() == ".exr";
 }
 
-bool reads_model(const RenderArguments& arguments) {
-  return !arguments.points && (is_named_as_model(arguments.file) || holds_model(arguments.file));
-}
+bool reads_model(const RenderArguments& arguments) { return !arguments.points && is_model(arguments.file); }
 
 bool makes_film(const RenderArguments& arguments) {
   const Given& given = arguments.given;

@@ -6,11 +6,13 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "commands.h"
 #include "depth_argument.h"
 #include "display_argument.h"
+#include "model_argument.h"
 #include "photograph_run.h"
 #include "slicing_options.h"
 #include "stereo_arguments.h"
@@ -21,6 +23,7 @@
 #include "wheatstone/files/output_paths.h"
 #include "wheatstone/files/whole_file.h"
 #include "wheatstone/marks/painting_file.h"
+#include "wheatstone/models/read_model.h"
 #include "wheatstone/multiview/slice_file.h"
 #include "wheatstone/photograph/carried_depth.h"
 #include "wheatstone/photograph/photograph_notes.h"
@@ -30,6 +33,7 @@
 #include "wheatstone/share/gallery_page.h"
 #include "wheatstone/share/page.h"
 #include "wheatstone/share/share_pictures.h"
+#include "wheatstone/stereo/geometry_from_disparity.h"
 #include "wheatstone/stereo/picture_sizes.h"
 #include "wheatstone/stereo/stereo_layout.h"
 #include "wheatstone/video/film_files.h"
@@ -44,6 +48,7 @@ struct ShareArguments {
   FolderArguments walk;  ///< of a folder of photographs
   ViewsArguments views;  ///< the files, as all kinds have them
   DepthArguments depth;
+  ModelArguments model;
   Slicing slicing;  ///< of a painting
   std::string disparity;
   std::string output = "page.html";
@@ -59,6 +64,7 @@ std::vector<fs::path> files_that_are_read(const ShareArguments& arguments) {
   for (const std::string& file :
        {arguments.depth.file, arguments.depth.model, arguments.disparity, arguments.subtitles})
     files.emplace_back(file);
+  files.push_back(arguments.model.seen.model.choice.texture);
   return files;
 }
 
@@ -94,6 +100,12 @@ SharedPicture share_picture_with_depth(const ShareArguments& arguments, const Se
   return share_photograph(single.pair.pictures, single.pair.geometry, arguments.words.title);
 }
 
+SharedPicture share_model(const ShareArguments& arguments, const Session& session) {
+  ModelPictures made = render_model_argument(arguments.views.files.front(), arguments.model, shared_views, session);
+  const StereoGeometry geometry = geometry_from_both(std::move(made.left_disparity), std::move(made.right_disparity));
+  return share_photograph(made.pictures, geometry, arguments.words.title, made.known);
+}
+
 SharedPicture share_stereo_photograph(const ShareArguments& arguments, const Session& session) {
   const std::vector<std::string>& files = arguments.views.files;
   const ReadPhotograph read = read_photographs({.left = files.front(),
@@ -108,7 +120,17 @@ SharedPicture share_stereo_photograph(const ShareArguments& arguments, const Ses
   return share_photograph(read.pair.pictures, found.geometry, arguments.words.title);
 }
 
-enum class SharedKind { photographs, painting, film, quilt_film, slices, views, picture_with_depth, stereo_photograph };
+enum class SharedKind {
+  photographs,
+  painting,
+  film,
+  quilt_film,
+  slices,
+  model,
+  views,
+  picture_with_depth,
+  stereo_photograph
+};
 
 SharedKind shared_kind_of(const ShareArguments& arguments) {
   const ViewsArguments& views = arguments.views;
@@ -120,17 +142,19 @@ SharedKind shared_kind_of(const ShareArguments& arguments) {
     return views.quilt || quilt_of_name(fs::path(first).filename().string()) ? SharedKind::quilt_film
                                                                              : SharedKind::film;
   if (is_one && first.ends_with(".exr") && !is_multiview_exr(first)) return SharedKind::slices;
+  if (is_one && is_model(first)) return SharedKind::model;
   if (are_ready_views(views)) return SharedKind::views;
   const bool has_own = is_one && (has_depth(arguments.depth) || views.layout == depth_layout || carries_depth(first));
   return has_own ? SharedKind::picture_with_depth : SharedKind::stereo_photograph;
 }
 
 std::string_view shared_situation(SharedKind kind) {
-  constexpr std::array<std::string_view, 8> words{"on a folder of photographs",
+  constexpr std::array<std::string_view, 9> words{"on a folder of photographs",
                                                   "on a painting (.wst)",
                                                   "on a film",
                                                   "on a film of quilts",
                                                   "on slices",
+                                                  "on a model of triangles",
                                                   "on views",
                                                   "on one picture with its depth",
                                                   "on a stereo photograph"};
@@ -171,6 +195,8 @@ SharedPicture share(const ShareArguments& arguments, const Session& session) {
       return share_film_file(arguments);
     case SharedKind::slices:
       return share_slice_file(arguments);
+    case SharedKind::model:
+      return share_model(arguments, session);
     case SharedKind::views:
       return share_views(read_views_argument(arguments.views, 0, session).views, title);
     case SharedKind::picture_with_depth:
@@ -269,8 +295,8 @@ Rows share_rows(ShareArguments& a) {
   const Rows page{
       row("FILE", required(texts(a.views.files)),
           "Painting (.wst); LEFT and RIGHT photograph, or one file that holds both; one picture with its depth; views "
-          "from left to right, a folder of them or a quilt; slices (.exr); film of both eyes or of quilts; a folder of "
-          "photographs"),
+          "from left to right, a folder of them or a quilt; slices (.exr); film of both eyes or of quilts; model of "
+          "triangles (glTF, OBJ, PLY, STL); a folder of photographs"),
       row("-o,--output", output_name(a.output),
           "Page: one HTML file, which needs nothing else; of a folder, the folder of the pages, 'gallery' by default"),
       row("--title", text(a.words.title), "Title of the page; the name of the file by default"),
@@ -303,7 +329,8 @@ Rows share_rows(ShareArguments& a) {
   Rows walk = folder_rows(a.walk, on_folder, "shared");
   walk.push_back(contact_sheet_row(a.walk, on_folder));
   return join({page, slicing_rows(a.slicing, {only({SharedKind::painting})}), walk,
-               under({}, depth_rows(a.depth, no_depth), {only({SharedKind::picture_with_depth})})});
+               under({}, depth_rows(a.depth, no_depth), {only({SharedKind::picture_with_depth})}),
+               under("Models", model_rows(a.model), {only({SharedKind::model})})});
 }
 
 }  // namespace
@@ -316,6 +343,7 @@ Command share_command() {
   wheatstone share painted.mp4 -o page.html
   wheatstone share slices.exr -o page.html --max-size 4MB
   wheatstone share left.png right.png -o page.html
+  wheatstone share model.glb --azimuth 60 -o page.html
   wheatstone share photo.jpg --depth depth.png -o page.html
   wheatstone share photographs -o gallery)");
 }

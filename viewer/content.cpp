@@ -168,8 +168,6 @@ Opened open_model(const fs::path& path, const Listeners& listeners) {
   return {ModelContent{model}, "model", model->read.warnings};
 }
 
-bool is_model(const fs::path& path) { return is_named_as_model(path) || holds_model(path); }
-
 Opened open_without_depth(std::span<const fs::path> files, const Listeners& listeners) {
   const fs::path& path = files.front();
   report(listeners.progress, "reading", 0);

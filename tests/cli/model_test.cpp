@@ -111,4 +111,18 @@ TEST_F(ModelCommandTest, WhatDoesNotApplyIsRefused) {
   refused({"cut.glb"}, 3, "cut.glb");
 }
 
+TEST_F(ModelCommandTest, SharesAPageOfWhatTheRendererSees) {
+  const auto page_of = [&](const char* azimuth) {
+    run({"share", "model.obj", "--picture-size", "96x72", "--azimuth", azimuth, "-o", "page.html"});
+    return bytes_of(folder_ / "page.html");
+  };
+  const std::string page = page_of("60");
+  EXPECT_NE(page.find("layered"), std::string::npos);
+  EXPECT_NE(page, page_of("240"));
+  expect_refused(folder_, {"share", "model.obj", "--depth", "d.png", "-o", "out.html"}, 2, "on a model of triangles");
+  expect_refused(folder_, {"share", "photo.png", "--azimuth", "60", "-o", "out.html"}, 2, "on a stereo photograph");
+  put_bytes(folder_ / "damaged.obj", "v 1 2 3\nf 1 2 9\n");
+  expect_refused(folder_, {"share", "damaged.obj", "-o", "out.html"}, 3, "damaged.obj");
+}
+
 }  // namespace wheatstone::model_test

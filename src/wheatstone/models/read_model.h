@@ -42,6 +42,9 @@ bool holds_model(const std::filesystem::path& path);
 /// Whether a file's name ends as those of models do that hold nothing else: .obj, .stl, .glb, .gltf.
 bool is_named_as_model(const std::filesystem::path& path);
 
+/// Whether a file is a model, by its name or its content.
+inline bool is_model(const std::filesystem::path& path) { return is_named_as_model(path) || holds_model(path); }
+
 /// Reads the triangles of a model. They are placed as its scene has them, y up becomes z up, polygons become triangles,
 /// and normals are made where there are none. The file is read in a child process with limits of memory and time, and
 /// textures only from its folder. Throws Error{bad_input} that names the file where it is damaged, has no triangles,

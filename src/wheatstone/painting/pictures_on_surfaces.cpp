@@ -35,9 +35,10 @@ PicturesOnSurfaces pictures_on_surfaces(const Painting& painting) {
 }
 
 PicturesOnSurfaces pictures_on_surfaces(const StereoPairView& photographs, const StereoGeometryView& geometry,
-                                        ViewRange wanted) {
+                                        ViewRange wanted, std::span<const View> known) {
   PicturesOnSurfaces scene;
-  for (const View& view : at_reference_scale(make_still_scene(photographs, geometry, wanted))) {
+  for (const View& view : at_reference_scale(known.empty() ? make_still_scene(photographs, geometry, wanted)
+                                                           : make_known_scene(photographs, geometry, known))) {
     scene.surfaces.seen.push_back(surface_of(view));
     scene.pictures.push_back(copy_of(view.colour));
   }

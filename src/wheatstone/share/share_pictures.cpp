@@ -16,10 +16,9 @@
 
 namespace wheatstone {
 
-SharedPicture share_photograph(const StereoPair& photographs, const StereoGeometry& geometry,
-                               const std::string& title) {
-  constexpr ViewRange wanted{ViewPosition(-1.f), ViewPosition(1.f)};
-  const PicturesOnSurfaces scene = pictures_on_surfaces(photographs, geometry, wanted);
+SharedPicture share_photograph(const StereoPair& photographs, const StereoGeometry& geometry, const std::string& title,
+                               std::span<const View> known) {
+  const PicturesOnSurfaces scene = pictures_on_surfaces(photographs, geometry, shared_views, known);
   SharedPicture shared{.width = photographs.left.width(), .height = photographs.left.height()};
   const DepthEnds ends = depth_ends(geometry.left_disparity);
   const float depth_px = std::max(ends.nearest_px - ends.farthest_px, 1e-3f),
@@ -30,8 +29,8 @@ SharedPicture share_photograph(const StereoPair& photographs, const StereoGeomet
              {"height", shared.height},
              {"separation", std::min(budget_px / depth_px, 1.f)},
              {"zeroParallax", ends.nearest_px},
-             {"first", wanted.first.eye_separations()},
-             {"last", wanted.last.eye_separations()}};
+             {"first", shared_views.first.eye_separations()},
+             {"last", shared_views.last.eye_separations()}};
   facts["surfaces"] = add_surfaces(scene.surfaces, shared.parts);
   add_pictures(scene.pictures, scene.surfaces, shared.parts);
   shared.facts = text_of(facts);

@@ -13,6 +13,7 @@
 #include "wheatstone/share/page.h"
 #include "wheatstone/stereo/stereo_layout.h"
 #include "wheatstone/stereo/stereo_pair.h"
+#include "wheatstone/stereo/view.h"
 
 namespace wheatstone {
 
@@ -42,8 +43,12 @@ struct ShareFilmOptions {
 SharedPicture share_film(const std::filesystem::path& film, const ShareFilmOptions& options);
 
 /// A photograph of two views, or of one and its depth (stereo/single_view.h), for a page: its pictures on the surfaces
-/// that they show, and for views beside the eyes what `make_still_scene` continues.
-SharedPicture share_photograph(const StereoPair& photographs, const StereoGeometry& geometry, const std::string& title);
+/// that they show, and for views beside the eyes what `make_still_scene` continues, or what `known` views show.
+SharedPicture share_photograph(const StereoPair& photographs, const StereoGeometry& geometry, const std::string& title,
+                               std::span<const View> known = {});
+
+/// The views that a page of a photograph can be seen from.
+inline constexpr ViewRange shared_views{ViewPosition(-1.f), ViewPosition(1.f)};
 
 /// Ready views, from the leftmost to the rightmost, for a page, which shows the nearest to where somebody looks from.
 /// They are made smaller where no browser could hold all of them, in one picture of 8192 × 8192 pixels.
