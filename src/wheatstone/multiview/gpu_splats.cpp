@@ -99,30 +99,37 @@ std::vector<std::uint32_t> packed_colours(const Cloud& cloud, ParticleRange rang
   return packed;
 }
 
-/// Copies particles of a cloud to the buffer, column after column, and notes in the work where each begins.
-void copy_columns(const Cloud& cloud, ParticleRange range, const SplatStyle& style, GpuBuffer& buffer,
-                  SplatWork& work) {
-  const std::vector<float> none;
+/// The columns of a cloud that programs read, in their order, but for colours.
+std::array<const std::vector<float>*, 8> columns_of(const Cloud& cloud, const SplatStyle& style) {
+  static const std::vector<float> none;
   const std::vector<float>* second = &none;
   if (style.colour_source == ColourSource::quantity) second = &cloud.quantity;
   if (style.colour_source == ColourSource::temperature) second = &cloud.temperature;
-  const std::array columns{&cloud.x,    &cloud.y,       &cloud.z, &cloud.density, second, &cloud.smoothing_length,
-                           &cloud.mass, &cloud.presence};
-  std::size_t next = 0;
-  work.column.fill(-1);
-  for (std::size_t c = 0; c < columns.size(); ++c) {
-    if (columns[c]->empty()) continue;
-    work.column[c] = static_cast<std::int32_t>(next);
-    buffer.write(std::span(*columns[c]).subspan(range.first, range.count), next * sizeof(float));
-    next += range.count;
-  }
-  if (style.colour_source == ColourSource::own) {
-    const std::vector<std::uint32_t> packed = packed_colours(cloud, range);
-    work.column[columns.size()] = static_cast<std::int32_t>(next);
-    buffer.write(std::span(packed), next * sizeof(float));
-  }
-  work.particles = static_cast<std::int32_t>(range.count);
-  set_size_rule(cloud, style, work);
+  return {&cloud.x, &cloud.y, &cloud.z, &cloud.density, second, &cloud.smoothing_length, &cloud.mass, &cloud.presence};
+}
+
+/// Where each column begins in a buffer that has room for `most_gathered` particles in each.
+decltype(SplatWork::column) places_of(const Cloud& cloud, const SplatStyle& style) {
+  decltype(SplatWork::column) places;
+  places.fill(-1);
+  const auto columns = columns_of(cloud, style);
+  for (std::size_t c = 0; c < columns.size(); ++c)
+    if (!columns[c]->empty()) places[c] = static_cast<std::int32_t>(c * most_gathered);
+  if (style.colour_source == ColourSource::own)
+    places[columns.size()] = static_cast<std::int32_t>(columns.size() * most_gathered);
+  return places;
+}
+
+/// Copies particles of a cloud to the buffer, behind so many.
+void copy_columns(const Cloud& cloud, ParticleRange range, const SplatStyle& style, std::size_t behind,
+                  GpuBuffer& buffer) {
+  const auto columns = columns_of(cloud, style);
+  const auto at = [&](std::size_t c) { return (c * most_gathered + behind) * sizeof(float); };
+  for (std::size_t c = 0; c < columns.size(); ++c)
+    if (!columns[c]->empty()) buffer.write(std::span(*columns[c]).subspan(range.first, range.count), at(c));
+  if (style.colour_source != ColourSource::own) return;
+  const std::vector<std::uint32_t> packed = packed_colours(cloud, range);
+  buffer.write(std::span(packed), at(columns.size()));
 }
 
 void set_pictures(const SplatOrders& orders, SplatWork& work) {
@@ -212,34 +219,63 @@ class ParticleGatherer {
     set_pictures(pictures.orders, work_);
   }
 
-  /// Adds them to all targets, or to one. False where their lists do not fit into a buffer.
-  bool add(const Cloud& cloud, ParticleRange range, std::optional<int> target = {}) {
-    copy_columns(cloud, range, job_.scene.splat_style, columns_, work_);
-    const GpuBuffer of_work(std::span<const SplatWork>(&work_, 1));
+  /// Keeps particles of a cloud until they are gathered, as many as there is room for. Returns how many.
+  std::size_t keep(const Cloud& cloud, std::size_t first) {
+    const SplatStyle& style = job_.scene.splat_style;
+    if (const auto places = places_of(cloud, style); places != work_.column) {
+      gather_kept();  // clouds may have different columns
+      work_.column = places;
+      set_size_rule(cloud, style, work_);
+    }
+    const ParticleRange range{first, std::min(most_gathered - kept_, cloud.size() - first)};
+    copy_columns(cloud, range, style, kept_, columns_);
+    kept_ += range.count;
+    return range.count;
+  }
+  /// Adds some of what is kept to the targets. False where their lists do not fit into a buffer.
+  bool gather(ParticleRange range) {
+    SplatWork work = work_;
+    work.particles = static_cast<std::int32_t>(range.count);
+    for (std::int32_t& column : work.column)
+      if (column >= 0) column += static_cast<std::int32_t>(range.first);
+    const GpuBuffer of_work(std::span<const SplatWork>(&work, 1));
     kept_program(project_splats_source, {{"KIND_OF_LIGHT", job_.scene.splat_style.look == Look::mass ? 1 : 0}})
         .run({groups_of(range.count, 64)}, {&of_work, &columns_, &gatherer_.splats(), &gatherer_.reaches()},
              {&tables_});
-    return gatherer_.add(range.count, target);
+    return gatherer_.add(range.count, target_);
   }
-  /// The same of all of a cloud, in as many parts as it takes.
+  /// Adds all of a cloud to all targets, or to one, sooner or later.
   void add_all(const Cloud& cloud, std::optional<int> target = {}) {
-    std::size_t most = most_gathered;
-    for (std::size_t first = 0; first < cloud.size();) {
-      const ParticleRange range{first, std::min(most, cloud.size() - first)};
-      if (add(cloud, range, target)) {
-        first += range.count;
-      } else {
-        most = (range.count + 1) / 2;  // wide splats stand in many lists
-      }
-    }
+    if (target != target_) gather_kept();
+    target_ = target;
+    for (std::size_t first = 0; first < cloud.size(); first += keep(cloud, first))
+      if (kept_ == most_gathered) gather_kept();
   }
-  std::vector<GpuBuffer> gathered() && { return std::move(gatherer_).gathered(); }
+  std::vector<GpuBuffer> gathered() && {
+    gather_kept();
+    return std::move(gatherer_).gathered();
+  }
 
  private:
   const RenderJob& job_;
   SplatWork work_;
   GpuBuffer tables_, columns_;
+  std::size_t kept_ = 0;       ///< particles in the columns
+  std::optional<int> target_;  ///< theirs
   SplatGatherer gatherer_;
+
+  void gather_kept() {
+    std::size_t most = kept_;
+    for (std::size_t first = 0; first < kept_;) {
+      const ParticleRange range{first, std::min(most, kept_ - first)};
+      if (gather(range)) {
+        first += range.count;
+      } else {
+        most = (range.count + 1) / 2;  // wide splats stand in many lists
+      }
+    }
+    kept_ = 0;
+  }
 };
 
 /// Adds one light to another of the same groups.
@@ -267,7 +303,7 @@ LightOnGpu light_on_gpu(const RenderJob& job, const GpuFacts& facts, const GpuPi
     ParticleGatherer gatherer(job, facts, pictures, targets, views, at_once.groups, GpuWritten::light);
     bool all = false;
     job.chunks([&](const Cloud& cloud) {
-      if (cloud.size() == job.statistics.count) all = gatherer.add(cloud, {0, cloud.size()});
+      if (cloud.size() == job.statistics.count) all = gatherer.gather({0, gatherer.keep(cloud, 0)});
     });
     if (all) {
       at_once.light = std::move(gatherer).gathered();
