@@ -97,29 +97,32 @@ void multiply(std::span<float> weights, std::span<const std::uint8_t> values, co
 
 }  // namespace
 
-Image<float> difference_weights(const LayerPlan& plan) {
+bool weighs_outlines(const LayerPlan& plan) { return !plan.depth_edges.empty() && plan.radius_px <= fine_radius_px; }
+
+void weigh_rows(const LayerPlan& plan, int first, int end, Image<float>& weights) {
   const ImageView<const std::uint8_t> detail = plan.view.detail;
-  const bool weighs_outlines = !plan.depth_edges.empty() && plan.radius_px <= fine_radius_px;
-  const std::array<float, 256> of_detail = factors_of_detail();
+  static const std::array<float, 256> of_detail = factors_of_detail();
   std::array<float, 256> of_outline{1};
   std::fill(of_outline.begin() + 1, of_outline.end(), factor_of_outline);
-  const int width = plan.reference.red.width(), height = plan.reference.red.height();
+  const int width = weights.width(), height = weights.height();
   std::vector<float> columns_in_window(static_cast<std::size_t>(width));
   for (int x = 0; x < width; ++x) columns_in_window[x] = static_cast<float>(in_window(x, width));
-  Image<float> weights(width, height);
+  ColumnSums sums(width);
+  for (int y = first - window_reach_px; y < first + window_reach_px; ++y) sums.change(*plan.reference, y, 1);
+  for (int y = first; y < end; ++y) {
+    sums.change(*plan.reference, y + window_reach_px, 1);
+    weigh_row(sums, columns_in_window, in_window(y, height), weights.row(y));
+    sums.change(*plan.reference, y - window_reach_px, -1);
+    if (!detail.empty()) multiply(weights.row(y), detail.row(y), of_detail);
+    if (weighs_outlines(plan)) multiply(weights.row(y), plan.depth_edges.row(y), of_outline);
+  }
+}
+
+Image<float> difference_weights(const LayerPlan& plan) {
+  Image<float> weights(plan.reference->red.width(), plan.reference->red.height());
   constexpr int least_rows = 64;  // a part's first window is summed anew
-  tbb::parallel_for(tbb::blocked_range<int>(0, height, least_rows), [&](const tbb::blocked_range<int>& rows) {
-    ColumnSums sums(width);
-    for (int y = rows.begin() - window_reach_px; y < rows.begin() + window_reach_px; ++y)
-      sums.change(plan.reference, y, 1);
-    for (int y = rows.begin(); y < rows.end(); ++y) {
-      sums.change(plan.reference, y + window_reach_px, 1);
-      weigh_row(sums, columns_in_window, in_window(y, height), weights.row(y));
-      sums.change(plan.reference, y - window_reach_px, -1);
-      if (!detail.empty()) multiply(weights.row(y), detail.row(y), of_detail);
-      if (weighs_outlines) multiply(weights.row(y), plan.depth_edges.row(y), of_outline);
-    }
-  });
+  tbb::parallel_for(tbb::blocked_range<int>(0, weights.height(), least_rows),
+                    [&](const tbb::blocked_range<int>& rows) { weigh_rows(plan, rows.begin(), rows.end(), weights); });
   return weights;
 }
 

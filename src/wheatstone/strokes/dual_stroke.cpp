@@ -85,7 +85,7 @@ void make_dual(const LayerPlan& plan, Layer& layer) {
     const std::size_t first = layer.points.size();
     for (std::size_t i = 0; i < points.size(); ++i)
       layer.points.push_back(beside(plan, points[i], normal_at(points, i), side));
-    add_strokes(plan.reference, first, half, layer);
+    add_strokes(*plan.reference, first, half, layer);
   }
 }
 

@@ -75,7 +75,7 @@ int place_of_half(const LayerPlan& plan, int half) {
 void errors_of_row(const LayerPlan& plan, int left, int y, std::span<float> errors) {
   const auto row = [&](const auto& plane) { return plane.row(y).subspan(static_cast<std::size_t>(left)); };
   const Canvas& canvas = plan.canvas;
-  const auto red = row(plan.reference.red), green = row(plan.reference.green), blue = row(plan.reference.blue);
+  const auto red = row(plan.reference->red), green = row(plan.reference->green), blue = row(plan.reference->blue);
   const auto painted_red = row(canvas.red), painted_green = row(canvas.green), painted_blue = row(canvas.blue);
   const auto covered = row(canvas.coverage), weights = row(plan.weights);
   for (std::size_t i = 0; i < errors.size(); ++i) {
@@ -225,12 +225,7 @@ void add_stroke(const PaintedStroke& painted, const LayerPlan& plan, int left, i
 
 PaintedPicture painted_picture(const Canvas& canvas) {
   PaintedPicture picture(canvas.width, canvas.height);
-  tbb::parallel_for(0, canvas.height, [&](int y) {
-    const auto red = canvas.red.row(y), green = canvas.green.row(y), blue = canvas.blue.row(y);
-    const auto covered = canvas.coverage.row(y);
-    const auto to = picture.row(y);
-    for (std::size_t x = 0; x < to.size(); ++x) to[x] = PaintedPixel::of(red[x], green[x], blue[x], covered[x]);
-  });
+  tbb::parallel_for(0, canvas.height, [&](int y) { take_painted_row(canvas, y, picture.row(y)); });
   return picture;
 }
 
@@ -392,23 +387,32 @@ std::uint32_t fitted_places(const LayerPlan& plan) {
   return static_cast<std::uint32_t>(fit_passes * blocks_of(plan).size()) << bits_of_place(plan);
 }
 
+void take_painted_row(const Canvas& canvas, int y, std::span<PaintedPixel> to) {
+  const auto red = canvas.red.row(y), green = canvas.green.row(y), blue = canvas.blue.row(y);
+  const auto covered = canvas.coverage.row(y);
+  for (std::size_t x = 0; x < to.size(); ++x) to[x] = PaintedPixel::of(red[x], green[x], blue[x], covered[x]);
+}
+
 Layer fit_layer(const LayerPlan& plan) {
   const std::vector<Block> blocks = blocks_of(plan);
-  std::vector<std::uint8_t> worth(blocks.size());
-  tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t i) {
-    const auto& [left, top, size, wave, area, index] = blocks[i];
-    worth[i] = has_seeds(plan, left, top, size) && may_gain_in_block(plan, left, top, size);
-  });
-  Layer layer{plan.radius_px, {}, {}};
-  const bool any = std::ranges::any_of(worth, [](std::uint8_t block) { return block != 0; });
-  if (!any && plan.fit == nullptr) return layer;
-  PaintedPicture canvas = painted_picture(plan.canvas);
   LayerFit fit;  // what is left half done by an error is not kept
   std::optional<Refit> refit;
   if (plan.fit != nullptr) {
     fit = std::exchange(*plan.fit, {});
-    refit.emplace(plan, canvas, blocks.size(), fit);
+    refit.emplace(plan, blocks.size(), fit);
   }
+  std::vector<std::uint8_t> worth(blocks.size());
+  tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t i) {
+    const auto& [left, top, size, wave, area, index] = blocks[i];
+    worth[i] = refit && !refit->differs(area)
+                   ? refit->was_worth(index)
+                   : has_seeds(plan, left, top, size) && may_gain_in_block(plan, left, top, size);
+  });
+  Layer layer{plan.radius_px, {}, {}};
+  const bool any = std::ranges::any_of(worth, [](std::uint8_t block) { return block != 0; });
+  if (!any && !refit) return layer;
+  PaintedPicture own_canvas = refit ? PaintedPicture() : painted_picture(plan.canvas);
+  PaintedPicture& canvas = refit ? refit->canvas() : own_canvas;
   // Blocks of one wave do not touch the same pixels. A stroke depends on the picture within four blocks of this layer,
   // and as much for each coarser one.
   for (int wave = 0; wave < fit_waves; ++wave) {
@@ -422,7 +426,7 @@ Layer fit_layer(const LayerPlan& plan) {
         block.drop();
     });
     for (const Layer& block : planned) append_strokes(block, layer);
-    if (refit) refit->end_wave(wave, canvas);
+    if (refit) refit->end_wave(wave);
   }
   if (plan.fit != nullptr) *plan.fit = std::move(fit);
   return layer;

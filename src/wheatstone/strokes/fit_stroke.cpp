@@ -48,8 +48,8 @@ void follow(const FitTile& tile, const LayerPlan& plan, PlanePoint from, Directi
     if (!tile.is_bare(x, y) && squared(wanted - tile.painted(x, y)) < 0.6f * unlike) return;
     points.push_back(next);
     from = next;
-    Direction turned = plan.reference.orientation.along(static_cast<float>(tile.left) + next.x,
-                                                        static_cast<float>(tile.top) + next.y, 0, 0);
+    Direction turned = plan.reference->orientation.along(static_cast<float>(tile.left) + next.x,
+                                                         static_cast<float>(tile.top) + next.y, 0, 0);
     const float ahead = turned.x * direction.x + turned.y * direction.y;
     if (ahead < 0) turned = {-turned.x, -turned.y};
     constexpr float sharpest_turn = 0.3f, remembered = 0.4f;
@@ -77,8 +77,8 @@ void lengthen(const FitTile& tile, const LayerPlan& plan, Direction direction, P
 
 Path trace_both_ways(const FitTile& tile, const LayerPlan& plan, int x, int y) {
   const PlanePoint begin{static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f};
-  const Direction direction = plan.reference.orientation.along(static_cast<float>(tile.left) + begin.x,
-                                                               static_cast<float>(tile.top) + begin.y, 0, 0);
+  const Direction direction = plan.reference->orientation.along(static_cast<float>(tile.left) + begin.x,
+                                                                static_cast<float>(tile.top) + begin.y, 0, 0);
   Path path;
   follow(tile, plan, begin, {-direction.x, -direction.y}, path.points);
   std::ranges::reverse(path.points);
@@ -197,7 +197,7 @@ FitTile::FitTile(const LayerPlan& plan, PaintedPicture& canvas, int left_, int t
       error_(at(0, height)) {
   for (int y = 0; y < height; ++y) {
     const auto row = [&](const auto& plane) { return &plane(left, top + y); };
-    const auto *red = row(plan.reference.red), *green = row(plan.reference.green), *blue = row(plan.reference.blue);
+    const auto *red = row(plan.reference->red), *green = row(plan.reference->green), *blue = row(plan.reference->blue);
     const PaintedPixel* const paint = row(std::as_const(canvas));
     const float* const weights = row(plan.weights);
     float* const to = error_.data() + at(0, y);

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "wheatstone/marks/spline.h"
@@ -42,6 +43,10 @@ inline FitColour operator-(const FitColour& a, const FitColour& b) {
 /// brightness, so that dark detail counts as well, by View::detail, and beside depth edges. A weight depends on the
 /// picture within 3 pixels.
 Image<float> difference_weights(const LayerPlan& plan);
+/// Weighs some rows anew.
+void weigh_rows(const LayerPlan& plan, int first, int end, Image<float>& weights);
+/// Whether the weights depend on the depth edges.
+bool weighs_outlines(const LayerPlan& plan);
 
 /// The error of a pixel, in squared steps, from the difference between what is wanted and what is painted.
 inline float error_of(const FitColour& difference, bool is_bare, float weight) {
@@ -71,6 +76,7 @@ struct PaintedPixel {
   bool is_bare() const { return coverage() < 0.5f; }
 };
 using PaintedPicture = Image<PaintedPixel>;
+void take_painted_row(const Canvas& canvas, int y, std::span<PaintedPixel> to);
 
 /// A part of a layer's pictures, around a block of cells whose strokes are planned one after the other. `left` and
 /// `top` are counted from the picture's first pixel, everything else from the tile's. Borrows what it is made from.
@@ -87,7 +93,7 @@ class FitTile {
     return x >= 0 && y >= 0 && x < static_cast<float>(width) && y < static_cast<float>(height);
   }
   FitColour wanted(int x, int y) const {
-    const ReferencePicture& reference = plan_.reference;
+    const ReferencePicture& reference = *plan_.reference;
     return FitColour::of(reference.red(left + x, top + y), reference.green(left + x, top + y),
                          reference.blue(left + x, top + y));
   }

@@ -13,6 +13,7 @@
 #include "wheatstone/strokes/fit_stroke_internal.h"
 #include "wheatstone/strokes/handed_back_internal.h"
 #include "wheatstone/strokes/layer_order.h"
+#include "wheatstone/strokes/refit_internal.h"
 
 namespace wheatstone {
 namespace {
@@ -50,6 +51,12 @@ float least_gain_of(const Style& style, int width) {
   return usual * std::exp2(steps_of_fineness * (0.5f - style.fineness)) * size;
 }
 
+std::shared_ptr<const ReferencePicture> reference_for(ImageView<const Rgb8> colour, float radius_px, const Style& style,
+                                                      const LayerFit* fit) {
+  if (fit != nullptr && fit->is_made_from(colour, radius_px, style)) return fit->reference;
+  return std::make_shared<const ReferencePicture>(make_reference(colour, radius_px, style));
+}
+
 }  // namespace
 
 ScaledStyle::ScaledStyle(const Style& style, int width, int scale)
@@ -71,7 +78,7 @@ ViewOnCanvas::ViewOnCanvas(View view_, const Style& style, int reference_width, 
 ViewOnCanvas::ViewOnCanvas(View view_, const Style& style, int reference_width)
     : ViewOnCanvas(view_, style, reference_width, canvas_of(view_, style)) {}
 
-LayerPlan make_layer_plan(const ViewOnCanvas& at, const Style& style, int layer) {
+LayerPlan make_layer_plan(const ViewOnCanvas& at, const Style& style, int layer, LayerFit* fit) {
   constexpr float no_threshold_px = 1e9f, fine_px = 5;
   const float radius = at.scaled.radii_px[layer];
   const float threshold = style.depth_test ? at.scaled.depth_threshold_px : no_threshold_px;
@@ -85,9 +92,10 @@ LayerPlan make_layer_plan(const ViewOnCanvas& at, const Style& style, int layer)
                  .beside = at.beside,
                  // Broad strokes are few: they may gain less, so that soft gradients show fewer steps.
                  .least_gain = at.scaled.least_gain * std::min(fine_px / radius, 1.f),
+                 .fit = fit,
                  .depth_threshold_px = threshold};
   if (at.view.continued) plan.least_edge_cell_px = 3;  // edges that no photograph shows need no detail
-  tbb::parallel_invoke([&] { plan.reference = make_reference(at.view.colour, radius, style); },
+  tbb::parallel_invoke([&] { plan.reference = reference_for(at.view.colour, radius, style, fit); },
                        [&] {
                          if (!style.depth_test) return;
                          plan.depth_edges = near_depth_edge(at.disparity_steps, radius, threshold);
@@ -100,7 +108,8 @@ LayerPlan make_layer_plan(const ViewOnCanvas& at, const Style& style, int layer)
                          if (at.view.wanted.empty())
                            plan.mixed_colours = behind_depth_edge(at.disparity_steps, radius / 2, threshold);
                        });
-  if (style.marks == Marks::fitted_strokes) plan.weights = difference_weights(plan);
+  if (style.marks == Marks::fitted_strokes)
+    plan.weights = fit == nullptr ? difference_weights(plan) : weights_again(plan, *fit);
   return plan;
 }
 

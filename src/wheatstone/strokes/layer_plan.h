@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "wheatstone/drawing/canvas.h"
@@ -52,7 +53,7 @@ struct LayerPlan {
   const Style& style;
   const View& view;
   const Canvas& canvas;  ///< as the coarser layers left it
-  ReferencePicture reference;
+  std::shared_ptr<const ReferencePicture> reference;
   float radius_px = 4;
   int layer = 0;                            ///< from the coarsest, 0; numbers the layer's random choices
   ImageView<const std::uint8_t> seeds;      ///< strokes begin only where it is not 0; empty: everywhere
@@ -70,8 +71,9 @@ struct LayerPlan {
   Image<std::uint8_t> mixed_colours = {};  ///< as behind_depth_edge: no stroke takes its colour there
 };
 
-/// Prepares one layer, whose strokes may begin where the view is wanted.
-LayerPlan make_layer_plan(const ViewOnCanvas& at, const Style& style, int layer);
+/// Prepares one layer, whose strokes may begin where the view is wanted. `fit`: as LayerPlan's; what it holds and would
+/// be made again in the same way is taken from it.
+LayerPlan make_layer_plan(const ViewOnCanvas& at, const Style& style, int layer, LayerFit* fit = nullptr);
 
 /// 255 where the paint on the canvas has a colour that the view has nowhere near (marks/residual.h): strokes of the
 /// finest layer are wanted there whatever the style's threshold. Empty for styles whose colours are changed at random.

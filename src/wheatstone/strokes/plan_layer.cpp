@@ -170,7 +170,7 @@ void add_stroke(const LayerPlan& plan, Place place, const Seed& seed, std::uint6
   const std::span points = std::span(layer.points).subspan(stroke.first_point);
   settle_disparities(plan, stroke.radius_px, points);
   stroke.opacity = style.opacity;
-  const ReferencePicture& reference = plan.reference;
+  const ReferencePicture& reference = *plan.reference;
   stroke.colour =
       jittered({reference.red(seed.x, seed.y), reference.green(seed.x, seed.y), reference.blue(seed.x, seed.y)},
                style.jitter, random);
@@ -202,7 +202,7 @@ Layer plan_cells(const LayerPlan& plan, const Grid& grid, int row) {
   std::vector<float> errors(plan.canvas.width);
   for (int y = grid.top(row); y < grid.top(row + 1); ++y) {
     for (const CellRun& run : runs) {
-      squared_errors(plan.reference, plan.canvas, {y, grid.left(run.first), grid.left(run.end)}, errors.data());
+      squared_errors(*plan.reference, plan.canvas, {y, grid.left(run.first), grid.left(run.end)}, errors.data());
       for (int column = run.first; column < run.end; ++column)
         improve_seed(plan, grid.place, {y, grid.left(column), grid.left(column + 1)}, errors.data(), targets[column],
                      seeds[column]);

@@ -36,7 +36,12 @@ struct Bench {
   Bench(const Bench&) = delete;
   Bench& operator=(const Bench&) = delete;
 
-  LayerPlan plan() const { return {.style = style, .view = view, .canvas = canvas, .reference = reference}; }
+  LayerPlan plan() const {
+    return {.style = style,
+            .view = view,
+            .canvas = canvas,
+            .reference = std::make_shared<const ReferencePicture>(reference)};
+  }
 
   void cover(float level) {
     for (Image<float>* plane : {&canvas.red, &canvas.green, &canvas.blue}) std::ranges::fill(plane->pixels(), level);

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "wheatstone/marks/style.h"
@@ -49,13 +50,22 @@ struct LayerFit {
   Style style;
   float radius_px = 0, least_gain = 0, depth_threshold_px = 0;
   // What may, and is compared.
-  Image<std::uint8_t> red, green, blue, seeds;
-  OrientationField orientation;
-  Image<float> disparity, weights;
+  Image<Rgb8> colour;  ///< that the reference was made from
+  std::shared_ptr<const ReferencePicture> reference;
+  Image<std::uint8_t> seeds, detail, outlines;
+  Image<float> disparity;
+  Image<float> weights;  ///< empty while the layer's plan has them
   /// The canvas as each wave began.
   std::array<PaintedPicture, fit_waves> canvases;
+  PaintedPicture canvas;  ///< on which the layer is planned; holds something only where that is needed
   std::vector<BlockOutcome> blocks;
+
+  /// Whether the reference was made from these.
+  bool is_made_from(ImageView<const Rgb8> now, float radius_now_px, const Style& style_now) const;
 };
+
+/// As difference_weights, which are taken from the fit where they depend on nothing that differs.
+Image<float> weights_again(const LayerPlan& plan, LayerFit& fit);
 
 /// What planning a view leaves behind.
 struct ViewFit {
@@ -75,17 +85,22 @@ struct ViewFit {
 class Refit {
  public:
   /// Compares with the last time, and takes over what is there now. Everything differs where nothing is known.
-  Refit(const LayerPlan& plan, const PaintedPicture& canvas, std::size_t blocks, LayerFit& before);
+  Refit(const LayerPlan& plan, std::size_t blocks, LayerFit& before);
+
+  /// The canvas on which the layer is planned: as the coarser layers left it, at the pixels that differ.
+  PaintedPicture& canvas() { return before_.canvas; }
 
   bool differs(const PixelArea& area) const;
   void mark(const PixelArea& area);
   /// Paints the pixels that do not differ as they were when the wave began.
   void restore(int wave, const PixelArea& area, PaintedPicture& canvas) const;
   BlockOutcome& block(std::size_t index) { return before_.blocks[index]; }
-  void end_wave(int wave, const PaintedPicture& canvas);
+  /// Whether the block was worth a look the last time.
+  bool was_worth(std::size_t index) const { return !before_.blocks[index].cells.front().empty(); }
+  void end_wave(int wave);
 
  private:
-  void compare_row(const LayerPlan& plan, const PaintedPicture& canvas, int y);
+  void compare_row(const LayerPlan& plan, int y);
 
   LayerFit& before_;
   Image<std::uint8_t> differs_;

@@ -85,8 +85,7 @@ class ViewPainter {
   void plan(int layer, const CarryOptions& options, TrackedLayer& tracked, LayerFit* fit) {
     go_to_size(factor_for(layer));
     if (at_->view.colour.empty()) return;
-    LayerPlan plan = make_layer_plan(*at_, style_, layer);
-    plan.fit = fit;
+    LayerPlan plan = make_layer_plan(*at_, style_, layer, fit);
     Image<std::uint8_t> seeds;
     const std::size_t carried = tracked.tracks.size();
     const bool compares = options.goes_on || carried != 0;
@@ -105,6 +104,7 @@ class ViewPainter {
       plan.seeds = seeds;
     }
     Layer begun = plan_layer(plan);
+    if (fit != nullptr) fit->weights = std::move(plan.weights);
     numbers_.give(fitted_places(plan), begun);
     put_in_order(begun, style_);
     add(begun, plan, before, options, tracked);
@@ -194,7 +194,7 @@ class ViewPainter {
       StrokeTrack& track = tracked.tracks[i];
       if (track.ends != 0) return;
       const Stroke& stroke = in_view.strokes[i];
-      const ColourFit now = colour_fit(in_view.points_of(stroke), stroke.colour, *at_, plan.reference, before);
+      const ColourFit now = colour_fit(in_view.points_of(stroke), stroke.colour, *at_, *plan.reference, before);
       if (now.difference <= track.first_colour_difference + options.colour_tolerance &&
           now.gain >= std::min(track.first_gain, 0.f) - options.gain_tolerance && !spills(plan, in_view, stroke))
         return;
@@ -250,7 +250,7 @@ class ViewPainter {
     const int width = view.colour.width(), height = view.colour.height();
     Image<float> errors(width, height);
     tbb::parallel_for(0, height, [&](int y) {
-      squared_errors(plan.reference, plan.canvas, {y, 0, width}, errors.row(y).data());
+      squared_errors(*plan.reference, plan.canvas, {y, 0, width}, errors.row(y).data());
       if (view.wanted.empty()) return;
       for (int x = 0; x < width; ++x)
         if (view.wanted(x, y) == 0) errors(x, y) = -1;
@@ -325,7 +325,7 @@ class ViewPainter {
       StrokeTrack& track = tracked.tracks.emplace_back();
       track.shown = first_shown(motion_ == nullptr, options);
       if (!options.goes_on) continue;
-      const ColourFit first = colour_fit(begun.points_of(stroke), stroke.colour, *at_, plan.reference, before);
+      const ColourFit first = colour_fit(begun.points_of(stroke), stroke.colour, *at_, *plan.reference, before);
       track.first_length_px = length_px(begun.points_of(stroke)) * static_cast<float>(plan.view.frame.scale);
       track.first_colour_difference = first.difference;
       track.first_gain = first.gain;

@@ -35,9 +35,9 @@ Direction gradient_at(const ImageView<const std::uint8_t>& luminance, int x, int
 
 /// The direction in which a stroke leaves a pixel, or nothing where the style ends strokes at a vanishing gradient.
 std::optional<Direction> direction_at(const LayerPlan& plan, float x, float y) {
-  const Direction gradient = gradient_at(plan.reference.luminance, static_cast<int>(x), static_cast<int>(y));
+  const Direction gradient = gradient_at(plan.reference->luminance, static_cast<int>(x), static_cast<int>(y));
   if (plan.style.orientation == Orientation::smooth)
-    return plan.reference.orientation.along(x, y, gradient.x, gradient.y);
+    return plan.reference->orientation.along(x, y, gradient.x, gradient.y);
   const float magnitude = std::hypot(gradient.x, gradient.y);
   constexpr float vanishing = 0.5f;  // half a luminance step a pixel: below it 8-bit rounding decides
   if (magnitude < vanishing) return {};
@@ -71,7 +71,7 @@ bool crosses_depth_edge(const LayerPlan& plan, const ControlPoint& from, const C
 bool would_cover_unlike(const LayerPlan& plan, const Rgb& colour, const ControlPoint& to) {
   const int x = static_cast<int>(to.x), y = static_cast<int>(to.y);
   const bool bare = plan.canvas.coverage(x, y) < 0.5f;
-  return !bare && squared_distance(reference_at(plan.reference, x, y), colour) > unlike_colours * unlike_colours;
+  return !bare && squared_distance(reference_at(*plan.reference, x, y), colour) > unlike_colours * unlike_colours;
 }
 
 /// Criterion (d): paint would spill onto another surface, around the next point or on the way to it. A stroke that was
@@ -91,7 +91,7 @@ bool would_spill(const LayerPlan& plan, float radius_px, bool edgeways, const Co
 void trace_stroke(const LayerPlan& plan, const StrokeStart& start, std::vector<ControlPoint>& points) {
   const Style& style = plan.style;
   const Seed& seed = start.seed;
-  const Rgb colour = reference_at(plan.reference, seed.x, seed.y);
+  const Rgb colour = reference_at(*plan.reference, seed.x, seed.y);
   const auto width = static_cast<float>(plan.canvas.width), height = static_cast<float>(plan.canvas.height);
   ControlPoint point{static_cast<float>(seed.x) + 0.5f, static_cast<float>(seed.y) + 0.5f,
                      plan.view.disparity(seed.x, seed.y)};
@@ -103,7 +103,7 @@ void trace_stroke(const LayerPlan& plan, const StrokeStart& start, std::vector<C
     const int x = static_cast<int>(point.x), y = static_cast<int>(point.y);
 
     // (b) the canvas is already nearer to the picture than the stroke's colour would be
-    const Rgb wanted = reference_at(plan.reference, x, y);
+    const Rgb wanted = reference_at(*plan.reference, x, y);
     const Rgb painted{plan.canvas.red(x, y), plan.canvas.green(x, y), plan.canvas.blue(x, y)};
     const bool bare = plan.canvas.coverage(x, y) < 0.5f;
     if (length >= style.min_length && !bare && squared_distance(wanted, painted) < squared_distance(wanted, colour)) {
