@@ -13,7 +13,7 @@
 namespace wheatstone {
 
 std::vector<std::vector<std::uint32_t>> strokes_by_band(const FlatLayer& layer, int height) {
-  std::vector<std::vector<std::uint32_t>> bands((height + band_rows - 1) / band_rows);
+  std::vector<std::vector<std::uint32_t>> bands(band_count(height));
   const int last_band = static_cast<int>(bands.size()) - 1;
   for (std::uint32_t i = 0; i < layer.strokes.size(); ++i) {
     const FlatStroke& stroke = layer.strokes[i];
@@ -138,17 +138,17 @@ bool may_be_seen(const SeenLayer& seen, const FlatStroke& stroke, const Distance
   return (drawn.open_rows(begin, end) & rows) != 0;
 }
 
-/// Draws a layer band by band, on a canvas of some size. Bands for which `begin(top, drawn)` is false are left out;
-/// `finish(top, drawn)` takes what was drawn.
-template <class Begin, class Finish>
+/// Draws a layer band by band, on a canvas of some size. Bands for which `is_wanted(band)` or `begin(top, drawn)` is
+/// false are left out; `finish(top, drawn)` takes what was drawn.
+template <class IsWanted, class Begin, class Finish>
 void draw_bands(const Layer& layer, const Brush& brush, ViewPosition view, const Hiding& hiding, int width, int height,
-                Begin begin, Finish finish) {
+                IsWanted is_wanted, Begin begin, Finish finish) {
   const FlatLayer flat = flatten(layer);
   const SeenLayer seen(flat, view);
   const auto bands = strokes_by_band(flat, height);
   tbb::concurrent_queue<FrontToBackAccumulator> kept;  // reused, because fresh memory is slow
   tbb::parallel_for(0, static_cast<int>(bands.size()), [&](int i) {
-    if (bands[i].empty()) return;
+    if (bands[i].empty() || !is_wanted(i)) return;
     const int top = i * band_rows, row_count = std::min(band_rows, height - top);
     FrontToBackAccumulator drawn;
     if (kept.try_pop(drawn) && drawn.rows() == row_count) {
@@ -176,9 +176,12 @@ void draw_bands(const Layer& layer, const Brush& brush, ViewPosition view, const
 
 }  // namespace
 
-void rasterise(const Layer& layer, ViewPosition view, const Hiding& hiding, Canvas& canvas, const Brush& brush) {
+void rasterise(const Layer& layer, ViewPosition view, const Hiding& hiding, Canvas& canvas, const Brush& brush,
+               std::span<const std::uint8_t> wanted) {
   draw_bands(
-      layer, brush, view, hiding, canvas.width, canvas.height, [](int, const FrontToBackAccumulator&) { return true; },
+      layer, brush, view, hiding, canvas.width, canvas.height,
+      [&](int band) { return wanted.empty() || wanted[static_cast<std::size_t>(band)] != 0; },
+      [](int, const FrontToBackAccumulator&) { return true; },
       [&](int top, FrontToBackAccumulator& drawn) { lay_over(drawn, top, canvas); });
 }
 
@@ -201,7 +204,8 @@ Image<std::uint8_t> left_bare(const Layer& layer, ViewPosition view, const Hidin
       }
     }
   };
-  draw_bands(layer, brush, view, hiding, bare.width(), bare.height(), begin, finish);
+  draw_bands(
+      layer, brush, view, hiding, bare.width(), bare.height(), [](int) { return true; }, begin, finish);
   return bare;
 }
 

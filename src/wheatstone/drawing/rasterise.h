@@ -1,15 +1,24 @@
 #pragma once
 
+#include <cstdint>
+#include <span>
+
 #include "wheatstone/drawing/canvas.h"
 #include "wheatstone/drawing/hiding.h"
 #include "wheatstone/marks/stroke_painting.h"
 
 namespace wheatstone {
 
+/// Rows of a band: what is drawn in one does not depend on the others.
+inline constexpr int band_rows = 32;
+constexpr int band_count(int height) { return (height + band_rows - 1) / band_rows; }
+
 /// Draws one layer's strokes, in their order and as seen from the position `view`, over the canvas against which the
 /// next layer is planned. Antialiased; a stroke's cover is the largest of its dabs', so that it is not darker where it
 /// crosses itself. Parallel over bands of rows; the same bytes on any number of threads. `brush` leaves the paint.
-void rasterise(const Layer& layer, ViewPosition view, const Hiding& hiding, Canvas& canvas, const Brush& brush = {});
+/// `wanted`: 0 for bands that are left as they are; empty: all are drawn.
+void rasterise(const Layer& layer, ViewPosition view, const Hiding& hiding, Canvas& canvas, const Brush& brush = {},
+               std::span<const std::uint8_t> wanted = {});
 
 /// The pixels that strokes would leave bare if they were drawn in this way over a canvas whose bare pixels are not 0 in
 /// `bare`. Costs little if few pixels are bare.

@@ -428,7 +428,10 @@ Layer fit_layer(const LayerPlan& plan) {
     for (const Layer& block : planned) append_strokes(block, layer);
     if (refit) refit->end_wave(wave);
   }
-  if (plan.fit != nullptr) *plan.fit = std::move(fit);
+  if (refit) {
+    refit->mark_rows();
+    *plan.fit = std::move(fit);
+  }
   return layer;
 }
 

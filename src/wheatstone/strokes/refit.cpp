@@ -3,8 +3,14 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstring>
 #include <utility>
+
+#include "wheatstone/drawing/rasterise.h"
+#include "wheatstone/marks/brush.h"
+#include "wheatstone/strokes/view_to_plan_internal.h"
 
 namespace wheatstone {
 namespace {
@@ -141,11 +147,15 @@ void Refit::compare_row(const LayerPlan& plan, int y) {
     mark_differences(std::as_const(before_.weights).row(y), std::as_const(plan.weights).row(y), differs);
   take_over(before_.disparity.row(y), std::span<const float>(plan.view.disparity.row(y)), differs);
   if (!plan.seeds.empty()) take_over(before_.seeds.row(y), plan.seeds.row(y), differs);
-  thread_local std::vector<PaintedPixel> painted;
-  painted.resize(differs.size());
-  take_painted_row(plan.canvas, y, painted);
-  take_over(before_.canvases.front().row(y), std::span<const PaintedPixel>(painted), differs);
-  if (has_any(differs)) std::ranges::copy(painted, before_.canvas.row(y).begin());
+  const auto begun = before_.canvases.front().row(y);
+  const DifferingRows& rows = before_.drawing.differs;
+  if (rows.empty() || rows[static_cast<std::size_t>(y)] != 0) {
+    thread_local std::vector<PaintedPixel> painted;
+    painted.resize(differs.size());
+    take_painted_row(plan.canvas, y, painted);
+    take_over(begun, std::span<const PaintedPixel>(painted), differs);
+  }
+  if (has_any(differs)) std::ranges::copy(begun, before_.canvas.row(y).begin());
 }
 
 bool Refit::differs(const PixelArea& area) const {
@@ -180,6 +190,142 @@ void Refit::end_wave(int wave) {
     for (std::size_t x = 0; x < to.size(); ++x)
       if (differs[x] != 0) to[x] = from[x];
   });
+}
+
+void Refit::mark_rows() {
+  DifferingRows& rows = before_.drawing.differs;
+  rows.resize(static_cast<std::size_t>(differs_.height()));
+  for (int y = 0; y < differs_.height(); ++y)
+    if (has_any(differs_.row(y))) rows[static_cast<std::size_t>(y)] = 1;
+}
+
+namespace {
+
+void mark_stroke(const Layer& layer, const Stroke& stroke, DifferingRows& differs) {
+  const float reach = BrushProfile(stroke.radius_px).reach_px + 1;
+  const auto [top, bottom] = std::ranges::minmax(layer.points_of(stroke), {}, &ControlPoint::y);
+  const int height = static_cast<int>(differs.size());
+  const int first = std::clamp(static_cast<int>(std::floor(top.y - reach)), 0, height);
+  const int end = std::clamp(static_cast<int>(std::floor(bottom.y + reach)) + 1, first, height);
+  std::fill(differs.begin() + first, differs.begin() + end, std::uint8_t{1});
+}
+
+bool are_equal(const Layer& before, Stroke stroke, const Layer& now, const Stroke& other) {
+  const std::span<const ControlPoint> points = before.points_of(stroke);
+  stroke.first_point = other.first_point;
+  return stroke == other && std::ranges::equal(points, now.points_of(other));
+}
+
+/// Marks the rows of strokes that only one of two layers has.
+void mark_changes(const Layer& before, const Layer& now, DifferingRows& differs) {
+  auto was = before.strokes.begin();
+  auto is = now.strokes.begin();
+  while (was != before.strokes.end() || is != now.strokes.end()) {
+    const bool gone = is == now.strokes.end() || (was != before.strokes.end() && was->number < is->number);
+    const bool is_new = !gone && (was == before.strokes.end() || is->number < was->number);
+    if (!is_new && !gone && are_equal(before, *was, now, *is)) {
+      ++was, ++is;
+      continue;
+    }
+    if (!is_new) mark_stroke(before, *was++, differs);
+    if (!gone) mark_stroke(now, *is++, differs);
+  }
+}
+
+/// The bands of rows (drawing/rasterise.h) in which a row is marked.
+std::vector<std::uint8_t> bands_of(const DifferingRows& differs) {
+  std::vector<std::uint8_t> bands(static_cast<std::size_t>(band_count(static_cast<int>(differs.size()))));
+  for (std::size_t y = 0; y < differs.size(); ++y) bands[y / band_rows] |= differs[y];
+  return bands;
+}
+
+constexpr std::array<Image<float> Canvas::*, 4> planes{&Canvas::red, &Canvas::green, &Canvas::blue, &Canvas::coverage};
+
+/// A band of a canvas.
+struct CanvasBand {
+  int first, end;
+  std::array<std::vector<float>, planes.size()> rows;
+};
+
+/// Copies a band of the canvas on which a layer begins to the one with its strokes, and returns what was there.
+CanvasBand begin_band(const Canvas& begun, int band, Canvas& painted) {
+  CanvasBand before{band * band_rows, std::min((band + 1) * band_rows, painted.height), {}};
+  for (std::size_t plane = 0; plane < planes.size(); ++plane) {
+    for (int y = before.first; y < before.end; ++y) {
+      const auto row = (painted.*planes[plane]).row(y);
+      before.rows[plane].insert(before.rows[plane].end(), row.begin(), row.end());
+      std::ranges::copy((begun.*planes[plane]).row(y), row.begin());
+    }
+  }
+  return before;
+}
+
+/// Marks the rows of a band that have changed, and only these.
+void compare_band(const CanvasBand& before, const Canvas& painted, DifferingRows& differs) {
+  const auto width = static_cast<std::size_t>(painted.width);
+  for (int y = before.first; y < before.end; ++y) {
+    bool changed = false;
+    for (std::size_t plane = 0; plane < planes.size(); ++plane) {
+      const std::span<const float> row = (painted.*planes[plane]).row(y);
+      const auto first = static_cast<std::size_t>(y - before.first) * row.size();
+      changed = changed || !are_equal<float>(std::span(before.rows[plane]).subspan(first, width), row.first(width));
+    }
+    differs[static_cast<std::size_t>(y)] = changed ? 1 : 0;
+  }
+}
+
+}  // namespace
+
+Canvas enlarge_again(const Canvas& smaller, int factor, int width, int height, LayerDrawing& drawing) {
+  std::optional<Canvas> kept = std::exchange(drawing.begun, {});
+  const auto rows = static_cast<std::size_t>(height);
+  if (!kept || kept->width != width || kept->height != height || drawing.differs.size() != rows) {
+    drawing.differs.assign(rows, 1);
+    return larger_canvas(smaller, factor, width, height);
+  }
+  const std::vector<std::uint8_t> bands = bands_of(drawing.differs);
+  tbb::parallel_for(0, static_cast<int>(bands.size()), [&](int band) {
+    if (bands[static_cast<std::size_t>(band)] != 0) enlarge_band(smaller, factor, band, *kept);
+  });
+  return std::move(*kept);
+}
+
+void draw_again(const Layer& strokes, const Canvas& begun, ViewPosition view, const Hiding& hiding, const Brush& brush,
+                LayerDrawing& drawing) {
+  DifferingRows& differs = drawing.differs;
+  if (!drawing.painted) {
+    drawing.painted = begun;
+    std::ranges::fill(differs, std::uint8_t{1});
+    rasterise(strokes, view, hiding, *drawing.painted, brush);
+  } else {
+    mark_changes(drawing.strokes, strokes, differs);
+    const std::vector<std::uint8_t> bands = bands_of(differs);
+    std::vector<CanvasBand> before(bands.size());
+    const auto for_marked = [&](auto work) {
+      tbb::parallel_for(std::size_t{0}, bands.size(), [&](std::size_t band) {
+        if (bands[band] != 0) work(band);
+      });
+    };
+    for_marked([&](std::size_t band) { before[band] = begin_band(begun, static_cast<int>(band), *drawing.painted); });
+    rasterise(strokes, view, hiding, *drawing.painted, brush, bands);
+    for_marked([&](std::size_t band) { compare_band(before[band], *drawing.painted, differs); });
+  }
+  drawing.strokes = strokes;
+}
+
+void pass_on(const DifferingRows& differs, int factor, int height, DifferingRows& next) {
+  if (next.size() != static_cast<std::size_t>(height)) {
+    next.assign(static_cast<std::size_t>(height), 1);
+    return;
+  }
+  for (int row = 0, rows = static_cast<int>(differs.size()); row < rows; ++row) {
+    if (differs[static_cast<std::size_t>(row)] == 0) continue;
+    // A row is interpolated from the nearest two, and rows that make no whole smaller one repeat the last one.
+    const int reach = factor > 1 ? factor : 0;
+    const int first = std::max(row * factor - reach, 0);
+    const int end = row + 1 == rows ? height : std::min((row + 1) * factor + reach, height);
+    std::fill(next.begin() + first, next.begin() + end, std::uint8_t{1});
+  }
 }
 
 }  // namespace wheatstone

@@ -4,8 +4,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
+#include "wheatstone/drawing/canvas.h"
+#include "wheatstone/drawing/hiding.h"
+#include "wheatstone/marks/stroke_painting.h"
 #include "wheatstone/marks/style.h"
 #include "wheatstone/motion/film_frame.h"
 #include "wheatstone/strokes/fit_stroke_internal.h"
@@ -43,7 +47,21 @@ struct BlockOutcome {
   std::vector<PaintedStroke> strokes;
 };
 
-/// What fitting a layer leaves behind, so that less has to be fitted when some of its picture has changed. About 50
+/// By row: not 0 where something differs from the last time.
+using DifferingRows = std::vector<std::uint8_t>;
+
+/// What drawing a layer leaves behind, so that it is drawn again only in bands of rows in which something differs.
+/// Canvases are absent while they are planned on, and where nothing is known.
+struct LayerDrawing {
+  std::optional<Canvas> begun;    ///< as the layer began, where it is larger than that of the layer before
+  std::optional<Canvas> painted;  ///< with the layer's strokes
+  Layer strokes;                  ///< these, in the layer's pixels; their numbers ascend
+  /// Where the canvas on which the layer begins may differ from that on which it was fitted, and, once it has been
+  /// fitted again, where anything differed that its strokes or how they are hidden depend on. Empty: not known.
+  DifferingRows differs;
+};
+
+/// What fitting a layer leaves behind, so that less has to be fitted when some of its picture has changed. About 90
 /// bytes a pixel of the layer.
 struct LayerFit {
   // What must not differ.
@@ -59,6 +77,7 @@ struct LayerFit {
   std::array<PaintedPicture, fit_waves> canvases;
   PaintedPicture canvas;  ///< on which the layer is planned; holds something only where that is needed
   std::vector<BlockOutcome> blocks;
+  LayerDrawing drawing;
 
   /// Whether the reference was made from these.
   bool is_made_from(ImageView<const Rgb8> now, float radius_now_px, const Style& style_now) const;
@@ -98,6 +117,8 @@ class Refit {
   /// Whether the block was worth a look the last time.
   bool was_worth(std::size_t index) const { return !before_.blocks[index].cells.front().empty(); }
   void end_wave(int wave);
+  /// Marks the rows of LayerDrawing in which anything differs.
+  void mark_rows();
 
  private:
   void compare_row(const LayerPlan& plan, int y);
@@ -105,5 +126,16 @@ class Refit {
   LayerFit& before_;
   Image<std::uint8_t> differs_;
 };
+
+/// The canvas of the layer before in a picture `factor` times larger, for a layer that begins on it.
+Canvas enlarge_again(const Canvas& smaller, int factor, int width, int height, LayerDrawing& drawing);
+
+/// Draws a layer's strokes, whose numbers ascend, on the canvas on which it began, to `drawing.painted`, and marks
+/// where that differs.
+void draw_again(const Layer& strokes, const Canvas& begun, ViewPosition view, const Hiding& hiding, const Brush& brush,
+                LayerDrawing& drawing);
+
+/// Tells the next layer, whose canvas is `factor` times larger and has so many rows, where its canvas differs.
+void pass_on(const DifferingRows& differs, int factor, int height, DifferingRows& next);
 
 }  // namespace wheatstone

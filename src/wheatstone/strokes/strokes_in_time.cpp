@@ -8,6 +8,7 @@
 #include <mutex>
 #include <optional>
 #include <span>
+#include <utility>
 
 #include "wheatstone/drawing/rasterise.h"
 #include "wheatstone/error.h"
@@ -79,11 +80,15 @@ class ViewPainter {
         beside_(beside),
         uncovered_(view.continued ? view.wanted : SharedImage<std::uint8_t>()),
         numbers_(numbers) {}
+  ViewPainter(const ViewPainter&) = delete;
+  ViewPainter& operator=(const ViewPainter&) = delete;
+  ~ViewPainter() { give_back_canvas(); }  // to fits, which must still be there
 
   /// Ends the carried strokes of a layer that do not fit the picture any more, and begins those that are missing.
-  /// `fit`: as LayerPlan's.
-  void plan(int layer, const CarryOptions& options, TrackedLayer& tracked, LayerFit* fit) {
-    go_to_size(factor_for(layer));
+  /// `fits`: what is kept of all layers; none: nothing is.
+  void plan(int layer, const CarryOptions& options, TrackedLayer& tracked, std::span<LayerFit> fits) {
+    LayerFit* const fit = fits.empty() ? nullptr : &fits[static_cast<std::size_t>(layer)];
+    go_to_size(factor_for(layer), fit);
     if (at_->view.colour.empty()) return;
     LayerPlan plan = make_layer_plan(*at_, style_, layer, fit);
     Image<std::uint8_t> seeds;
@@ -115,10 +120,17 @@ class ViewPainter {
           with_opacities(tracked, [&](std::size_t i) { return i < carried ? standing(tracked.tracks[i]) : 1; }), layer);
       return;
     }
-    if (!finest) {
+    if (fit != nullptr) {
+      if (!finest) draw_again(begun, layer, fits);
+      // The first layer begins on a canvas that is made anew.
+      if (layer == 0)
+        fit->drawing.differs.clear();
+      else
+        std::ranges::fill(fit->drawing.differs, std::uint8_t{0});
+    } else if (!finest) {
       rasterise(begun, at_->view.position, hiding(), at_->canvas, cover_of_brush(layer));
-      return;
     }
+    if (!finest) return;
     cover_bare(plan, begun, carried, before, options, tracked);
     misplaced_ = std::move(misplaced);
   }
@@ -144,11 +156,38 @@ class ViewPainter {
     return is_finest ? 1 : factor_for_layer(view_, radii_px_[number], least_radius_px);
   }
 
-  void go_to_size(int factor) {
+  void go_to_size(int factor, LayerFit* fit) {
     if (at_ && at_->view.frame.scale == view_.frame.scale * factor) return;
     const View view = smaller_view(view_, factor);
-    at_ = at_ ? at_size(view, style_, reference_width_, *at_) : ViewOnCanvas(view, style_, reference_width_);
+    if (at_) {
+      const int enlarged = at_->view.frame.scale / view.frame.scale;
+      const int width = view.colour.width(), height = view.colour.height();
+      Canvas canvas = fit == nullptr ? larger_canvas(at_->canvas, enlarged, width, height)
+                                     : enlarge_again(at_->canvas, enlarged, width, height, fit->drawing);
+      give_back_canvas();
+      if (fit != nullptr) owner_of_canvas_ = &fit->drawing.begun;
+      at_.emplace(view, style_, reference_width_, std::move(canvas));
+    } else {
+      at_.emplace(view, style_, reference_width_);
+    }
     at_->beside = beside_;
+  }
+
+  void give_back_canvas() {
+    if (owner_of_canvas_ != nullptr) *std::exchange(owner_of_canvas_, nullptr) = std::move(at_->canvas);
+  }
+
+  /// Goes on to the canvas that the layer's strokes are painted on.
+  void draw_again(const Layer& strokes, int layer, std::span<LayerFit> fits) {
+    LayerDrawing& drawing = fits[static_cast<std::size_t>(layer)].drawing;
+    wheatstone::draw_again(strokes, at_->canvas, at_->view.position, hiding(), cover_of_brush(layer), drawing);
+    const int factor = factor_for(layer), next_factor = factor_for(layer + 1);
+    pass_on(drawing.differs, factor / next_factor, view_.colour.height() / next_factor,
+            fits[static_cast<std::size_t>(layer) + 1].drawing.differs);
+    Canvas painted = std::move(*std::exchange(drawing.painted, {}));
+    give_back_canvas();
+    at_->canvas = std::move(painted);
+    owner_of_canvas_ = &drawing.painted;
   }
 
   /// Covers the pixels that the finest strokes leave bare; nothing is planned over the pixels that they paint.
@@ -345,7 +384,8 @@ class ViewPainter {
   SharedImage<std::uint8_t> uncovered_;  ///< what no photograph shows, of a view that goes on there
   StrokeNumbers& numbers_;
   std::optional<ViewOnCanvas> at_;
-  Image<std::uint8_t> misplaced_;  ///< as misplaced_paint, of the carried strokes
+  std::optional<Canvas>* owner_of_canvas_ = nullptr;  ///< where the canvas is kept between times; none: it is not kept
+  Image<std::uint8_t> misplaced_;                     ///< as misplaced_paint, of the carried strokes
 };
 
 /// Plans the views at once and tells of each layer. An exception that `progress` throws in one view is thrown again
@@ -547,7 +587,8 @@ CarriedPainting plan_strokes(const FilmFrame& frame, const Style& style, const C
       // Little is fitted in views that no photograph shows, and much would be kept.
       const bool keeps_layers = fit != nullptr && !own.continued;
       for (std::size_t i = 0; i < layers; ++i) {
-        painter.plan(static_cast<int>(i), options, memory.views[view][i], keeps_layers ? &fit->layers[i] : nullptr);
+        painter.plan(static_cast<int>(i), options, memory.views[view][i],
+                     keeps_layers ? std::span(fit->layers) : std::span<LayerFit>());
         plan.report_step();
       }
       if (fit != nullptr)

@@ -1,13 +1,13 @@
 #include "wheatstone/strokes/view_to_plan_internal.h"
 
 #include <tbb/parallel_for.h>
-#include <tbb/parallel_invoke.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <opencv2/imgproc.hpp>
 
+#include "wheatstone/drawing/rasterise.h"
 #include "wheatstone/image/mat_opencv.h"
 #include "wheatstone/stereo/occlusion.h"
 #include "wheatstone/stereo/view_scale.h"
@@ -151,31 +151,39 @@ Layer dots_left_out(const View& part, const View& smaller) {
   return dots;
 }
 
-namespace {
-
-/// Enlarges a smaller canvas to this size. Border pixels that the smaller picture left out are bare, and have the
-/// colours beside them.
-Canvas larger_canvas(const Canvas& smaller, int factor, int width, int height) {
-  Canvas canvas(width, height, {});
+void enlarge_band(const Canvas& smaller, int factor, int band, Canvas& canvas) {
+  constexpr int reach = 2;  // of what the rows are interpolated from, and one to spare
+  const int first = band * band_rows, end = std::min(first + band_rows, canvas.height);
+  const int rows = std::min(smaller.height * factor, canvas.height);
+  const int columns = std::min(smaller.width * factor, canvas.width);
+  const int from_row = std::max(std::min(first, rows - 1) / factor - reach, 0);
+  const int from_end = std::min((end + factor - 1) / factor + reach, smaller.height);
   const auto enlarge = [&](const Image<float>& from, Image<float>& to) {
-    const cv::Mat small = as_mat(from).colRange(0, smaller.width);
-    const int columns = std::min(smaller.width * factor, width), rows = std::min(smaller.height * factor, height);
-    const cv::Mat all = as_mat(to);
-    cv::Mat large = all(cv::Rect(0, 0, smaller.width * factor, smaller.height * factor));
-    cv::resize(small, large, large.size(), 0, 0, cv::INTER_LINEAR);
-    for (int x = columns; x < width; ++x) all.col(columns - 1).copyTo(all.col(x));
-    for (int y = rows; y < height; ++y) all.row(rows - 1).copyTo(all.row(y));
-    if (&to != &canvas.coverage) return;
-    all.colRange(columns, width).setTo(0);
-    all.rowRange(rows, height).setTo(0);
+    const cv::Mat small = as_mat(from)(cv::Rect(0, from_row, smaller.width, from_end - from_row));
+    cv::Mat large;
+    cv::resize(small, large, {small.cols * factor, small.rows * factor}, 0, 0, cv::INTER_LINEAR);
+    const auto width = static_cast<std::size_t>(columns);
+    for (int y = first; y < end; ++y) {
+      const auto own = to.row(y).first(static_cast<std::size_t>(canvas.width));
+      std::copy_n(large.ptr<float>(std::min(y, rows - 1) - from_row * factor), width, own.begin());
+      std::ranges::fill(own.subspan(width), own[width - 1]);
+    }
   };
-  tbb::parallel_invoke([&] { enlarge(smaller.red, canvas.red); }, [&] { enlarge(smaller.green, canvas.green); },
-                       [&] { enlarge(smaller.blue, canvas.blue); },
-                       [&] { enlarge(smaller.coverage, canvas.coverage); });
-  return canvas;
+  enlarge(smaller.red, canvas.red);
+  enlarge(smaller.green, canvas.green);
+  enlarge(smaller.blue, canvas.blue);
+  enlarge(smaller.coverage, canvas.coverage);
+  for (int y = first; y < end; ++y) {
+    const auto own = canvas.coverage.row(y).first(static_cast<std::size_t>(canvas.width));
+    std::ranges::fill(own.subspan(y < rows ? static_cast<std::size_t>(columns) : 0), 0.f);
+  }
 }
 
-}  // namespace
+Canvas larger_canvas(const Canvas& smaller, int factor, int width, int height) {
+  Canvas canvas(width, height, {});
+  tbb::parallel_for(0, band_count(height), [&](int band) { enlarge_band(smaller, factor, band, canvas); });
+  return canvas;
+}
 
 int factor_for_layer(const View& view, float radius_px, float least_radius_px) {
   constexpr int least_side_px = 16;
@@ -187,12 +195,6 @@ int factor_for_layer(const View& view, float radius_px, float least_radius_px) {
   int factor = 1;
   while (fits(2 * factor)) factor *= 2;
   return factor;
-}
-
-ViewOnCanvas at_size(const View& view, const Style& style, int reference_width, const ViewOnCanvas& before) {
-  return {view, style, reference_width,
-          larger_canvas(before.canvas, before.view.frame.scale / view.frame.scale, view.colour.width(),
-                        view.colour.height())};
 }
 
 }  // namespace wheatstone
