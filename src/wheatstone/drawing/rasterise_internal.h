@@ -15,9 +15,6 @@
 
 namespace wheatstone {
 
-/// Rows of a canvas that one thread draws at a time: 32 rows of four float planes 1920 wide are just under a megabyte
-/// and stay in the second-level cache.
-
 /// For every band of a picture, the strokes that touch it, in drawing order.
 std::vector<std::vector<std::uint32_t>> strokes_by_band(const FlatLayer& layer, int height);
 
