@@ -9,7 +9,8 @@
 namespace wheatstone::still {
 namespace {
 
-constexpr int tile_px = 16;
+/// Sixteen pixels, and fewer in small pictures, where they would hold most of the scene.
+int tile_size(const Cameras& cameras) { return std::clamp(cameras.width / 64, 2, 16); }
 
 std::uint8_t srgb_encoded(float linear) {
   const float v = clamp01(linear);
@@ -109,15 +110,16 @@ View::View(const Scene& scene, const Cameras& cameras, ViewPosition position)
     : scene_(&scene),
       cameras_(&cameras),
       position_(position),
-      columns_((cameras.width + tile_px - 1) / tile_px),
-      rows_((cameras.height + tile_px - 1) / tile_px),
+      tile_px_(tile_size(cameras)),
+      columns_((cameras.width + tile_px_ - 1) / tile_px_),
+      rows_((cameras.height + tile_px_ - 1) / tile_px_),
       tiles_(static_cast<std::size_t>(columns_) * rows_) {
   for (std::size_t i = 0; i < scene.objects.size(); ++i) enter(static_cast<int>(i));
 }
 
 Hit View::look(float x, float y) const {
-  const int column = std::clamp(static_cast<int>(x) / tile_px, 0, columns_ - 1);
-  const int row = std::clamp(static_cast<int>(y) / tile_px, 0, rows_ - 1);
+  const int column = std::clamp(static_cast<int>(x) / tile_px_, 0, columns_ - 1);
+  const int row = std::clamp(static_cast<int>(y) / tile_px_, 0, rows_ - 1);
   const Ray ray = cameras_->ray(x, y, position_);
   Hit hit{std::numeric_limits<float>::max()};
   for (const int object : tiles_[static_cast<std::size_t>(row) * columns_ + column])
@@ -144,7 +146,9 @@ void View::enter(int object) {
     const float reach = cameras_->focal_px * r * (1 + off_axis) / (depth - r) + 1;
     left = x - reach, right = x + reach, top = y - reach, bottom = y + reach;
   }
-  const auto tile = [](float v) { return static_cast<int>(std::floor(std::clamp(v, -1e6f, 1e6f) / tile_px)); };
+  const auto tile = [&](float v) {
+    return static_cast<int>(std::floor(std::clamp(v, -1e6f, 1e6f) / static_cast<float>(tile_px_)));
+  };
   for (int row = std::max(tile(top), 0); row <= std::min(tile(bottom), rows_ - 1); ++row)
     for (int column = std::max(tile(left), 0); column <= std::min(tile(right), columns_ - 1); ++column)
       tiles_[static_cast<std::size_t>(row) * columns_ + column].push_back(object);

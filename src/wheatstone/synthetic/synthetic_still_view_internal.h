@@ -67,7 +67,7 @@ class View {
   const Scene* scene_;
   const Cameras* cameras_;
   ViewPosition position_;
-  int columns_, rows_;
+  int tile_px_, columns_, rows_;
   std::vector<std::vector<int>> tiles_;
 };
 
