@@ -52,7 +52,7 @@ TEST(StudyCommand, MakesAStudyOfComfortOfAFolderOfPhotographs) {
   fs::create_directory(folder / "photographs");
   constexpr int photographs = 10;
   for (int number = 1; number <= photographs; ++number) {
-    const StereoPair pair = still_for_test(192, 144, static_cast<std::uint64_t>(number));
+    const StereoPair pair = still_for_test(128, 96, static_cast<std::uint64_t>(number));
     write_image(folder / fmt::format("photographs/{}_L.png", number), pair.left);
     write_image(folder / fmt::format("photographs/{}_R.png", number), pair.right);
   }

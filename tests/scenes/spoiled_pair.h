@@ -5,19 +5,12 @@
 #include <algorithm>
 #include <opencv2/imgproc.hpp>
 
+#include "scenes/still_life.h"
 #include "wheatstone/image/mat_opencv.h"
-#include "wheatstone/synthetic/synthetic_still.h"
 
 namespace wheatstone::spoiled {
 
-inline SyntheticStill small_still(bool converged = false) {
-  SyntheticStillOptions options;
-  options.width = 400;
-  options.height = 300;
-  options.samples_a_side = 1;
-  options.converged = converged;
-  return make_synthetic_still(options);
-}
+inline const SyntheticStill& small_still(bool converged = false) { return still_life(400, 300, 1, converged); }
 
 /// The right eye moved to the right as a whole.
 inline StereoPair shifted(StereoPair pair, int columns) {

@@ -3,26 +3,18 @@
 // What the tests of stereo files look at: photographs where there are some, and a still life that is always there.
 
 #include <filesystem>
-#include <map>
 #include <optional>
 #include <string>
-#include <tuple>
 
+#include "scenes/still_life.h"
 #include "shared_data.h"
 #include "wheatstone/pictures/read_image.h"
 #include "wheatstone/stereo/stereo_layout.h"
-#include "wheatstone/synthetic/synthetic_still.h"
 
 namespace wheatstone {
 
-/// Cast once a process, however often it is asked for.
 inline StereoPair still_for_test(int width = 480, int height = 360, std::uint64_t seed = 1) {
-  static std::map<std::tuple<int, int, std::uint64_t>, StereoPair> made;
-  const auto [found, is_new] = made.try_emplace({width, height, seed});
-  if (is_new)
-    found->second =
-        make_synthetic_still({.width = width, .height = height, .seed = seed, .samples_a_side = 1}).pictures;
-  return found->second;
+  return still_life(width, height, seed).pictures;
 }
 
 /// A pair of the shared data, as "teddy"; none where there are no data.

@@ -33,7 +33,7 @@ std::size_t strokes_between(const Painting& painting, float left, float right) {
 }
 
 TEST(DetailMap, SpendsStrokesWhereItIsWhiteAndSavesThemWhereItIsBlack) {
-  const Image<Rgb8> picture = make_synthetic_still({.width = 320, .height = 240}).pictures.left;
+  const Image<Rgb8> picture = make_synthetic_still({.width = 320, .height = 240, .samples_a_side = 1}).pictures.left;
   Image<std::uint8_t> map(2, 1);  // stretched over the picture, soft between
   map(0, 0) = 178;
   map(1, 0) = 78;
@@ -43,12 +43,12 @@ TEST(DetailMap, SpendsStrokesWhereItIsWhiteAndSavesThemWhereItIsBlack) {
 }
 
 TEST(DetailMap, OfOneGreyIsNoMap) {
-  const Image<Rgb8> picture = make_synthetic_still({.width = 160, .height = 120}).pictures.left;
+  const Image<Rgb8> picture = make_synthetic_still({.width = 160, .height = 120, .samples_a_side = 1}).pictures.left;
   EXPECT_EQ(flat_painting(picture, Image<std::uint8_t>(4, 3, even_detail)), flat_painting(picture));
 }
 
 TEST(DetailMap, IsRefusedForStrokesThatAreNotFitted) {
-  const SyntheticStill still = make_synthetic_still({.width = 64, .height = 48});
+  const SyntheticStill still = make_synthetic_still({.width = 64, .height = 48, .samples_a_side = 1});
   const Image<std::uint8_t> map(8, 6, 255);
   const auto plan = [&](const Style& style) {
     plan_painting(still.pictures, still.geometry, style, {}, widest_views, map);

@@ -39,6 +39,19 @@ class PreviewedFilm : public testing::Test {
   FilmPreview preview(const std::string& sheet, const Progress& progress = {}) const {
     return preview_film(film_, folder_ / "painted.mkv", folder_ / sheet, options_, progress);
   }
+  /// Of the film with these options, made once; the folder then has these files.
+  struct Usual {
+    FilmPreview told;
+    std::set<std::string> files;
+    Image<Rgb8> sheet;
+  };
+  const Usual& usual() const {
+    static const Usual made = [this] {
+      const FilmPreview told = preview("sheet.png");
+      return Usual{told, files(), read_image(folder_ / "sheet.png")};
+    }();
+    return made;
+  }
   std::set<std::string> files() const {
     std::set<std::string> names;
     for (const auto& entry : fs::directory_iterator(folder_ / "")) names.insert(entry.path().filename().string());
@@ -50,12 +63,12 @@ class PreviewedFilm : public testing::Test {
 };
 
 TEST_F(PreviewedFilm, IsASheetWithARowAShotAndNoFilm) {
-  const FilmPreview made = preview("sheet.png");
+  const FilmPreview& made = usual().told;
   EXPECT_EQ(made.shots, 3);
   EXPECT_EQ(made.frames, film_frames);
-  EXPECT_EQ(files(), (std::set<std::string>{"film.mkv", "sheet.png"}));
+  EXPECT_EQ(usual().files, (std::set<std::string>{"film.mkv", "sheet.png"}));
   // Tiles of 128×32 pixels: both eyes of a third of the size.
-  const Image<Rgb8> sheet = read_image(folder_ / "sheet.png");
+  const Image<Rgb8>& sheet = usual().sheet;
   EXPECT_EQ(sheet.width(), 5 * (128 + 12) + 12);
   EXPECT_EQ(sheet.height(), 3 * (32 + 26 + 12) + 12);
   const auto is_white = [&](int column, int row) {
@@ -70,8 +83,7 @@ TEST_F(PreviewedFilm, IsASheetWithARowAShotAndNoFilm) {
 }
 
 TEST_F(PreviewedFilm, ShowsTheFramesOfTheFilmInTheStyleOfTheirShot) {
-  preview("sheet.png");
-  const Image<Rgb8> sheet = read_image(folder_ / "sheet.png");
+  const Image<Rgb8>& sheet = usual().sheet;
   // The third picture of the first shot is of the frame in its middle, and that of the last shot also.
   for (const auto& [row, number] : {std::pair{0, 6}, {2, 22}}) {
     const Image<Rgb8> whole = moving_picture(192, 96, number), other = moving_picture(192, 96, number + 12);
@@ -88,7 +100,7 @@ TEST_F(PreviewedFilm, ShowsTheFramesOfTheFilmInTheStyleOfTheirShot) {
 }
 
 TEST_F(PreviewedFilm, TellsAboutHowLongItTakesAndHowLargeItBecomes) {
-  const FilmPreview expected = preview("sheet.png");
+  const FilmPreview& expected = usual().told;
   StereoFilmReader source = open_film(film_);
   const RotoscopedFilm made = rotoscope_film(source, folder_ / "painted.mkv", options_);
   const double bytes = static_cast<double>(fs::file_size(folder_ / "painted.mkv"));

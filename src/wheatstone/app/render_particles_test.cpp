@@ -72,8 +72,8 @@ std::string as_las(const std::vector<double>& numbers, const std::array<double, 
 }
 
 RenderedParticles rendered(const std::filesystem::path& file, RenderParticlesOptions options = {}) {
-  options.width = 160;
-  options.height = 90;
+  options.width = 96;
+  options.height = 54;
   options.views = 1;
   options.rendering.exposure = 0.3f;
   return render_particles(file, options);

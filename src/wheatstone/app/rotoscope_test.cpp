@@ -3,7 +3,9 @@
 #include <gmock/gmock.h>
 #include <zlib.h>
 
+#include <array>
 #include <cstring>
+#include <map>
 #include <random>
 #include <set>
 
@@ -20,14 +22,18 @@ namespace wheatstone::rotoscope_test {
 
 namespace fs = std::filesystem;
 
-StereoPair eyes_of_frame(int frame, int cut = 0, int width = 96, int height = 64) {
+/// Cast once.
+const StereoPair& eyes_of_frame(int frame, int cut = 0, int width = 96, int height = 64) {
+  static std::map<std::array<int, 4>, StereoPair> made;
+  const auto [at, is_new] = made.try_emplace({frame, cut, width, height});
+  if (!is_new) return at->second;
   SyntheticFilmOptions options;
   options.still.width = width;
   options.still.height = height;
   options.still.samples_a_side = 1;
   options.frames = 12;
   options.cut = cut;
-  return make_synthetic_film_frame(options, frame).pictures;
+  return at->second = make_synthetic_film_frame(options, frame).pictures;
 }
 
 RotoscopedFrame next_frame(int frame, RotoscopeState& state) {

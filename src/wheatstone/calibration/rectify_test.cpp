@@ -7,6 +7,7 @@
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 
+#include "scenes/still_life.h"
 #include "shared_data.h"
 #include "throws_error.h"
 #include "wheatstone/calibration/rectifying_map_internal.h"
@@ -18,7 +19,6 @@
 #include "wheatstone/pictures/disparity_file.h"
 #include "wheatstone/pictures/read_image.h"
 #include "wheatstone/random.h"
-#include "wheatstone/synthetic/synthetic_still.h"
 
 namespace wheatstone::rectify_test {
 
@@ -127,10 +127,7 @@ void expect_rows_agree(const StereoPair& photographs, const Image<float>& dispar
   EXPECT_LT(found_by_matching(untouched, truth), 0.6);
 }
 
-const SyntheticStill& still() {
-  static const SyntheticStill made = make_synthetic_still({.width = 640, .height = 480, .samples_a_side = 1});
-  return made;
-}
+const SyntheticStill& still() { return still_life(640, 480); }
 
 std::filesystem::path shared(const std::string& name) { return shared_data() / "stereo" / name; }
 
@@ -168,8 +165,7 @@ TEST(Rectify, LeavesARectifiedPairAboutAsItIs) {
 }
 
 TEST(Rectify, ShiftsWhatWouldHaveNegativeDisparities) {
-  const SyntheticStill converged =
-      make_synthetic_still({.width = 640, .height = 480, .samples_a_side = 1, .converged = true});
+  const SyntheticStill& converged = still_life(640, 480, 1, true);
   const RectifiedPair pair = rectify(converged.pictures);
   EXPECT_GT(pair.shift_px, 0);
   for (const FeatureMatch& match :
@@ -225,7 +221,7 @@ TEST(Rectify, RefusesWhatIsNoPairOfOneScene) {
   expect_error(ErrorKind::bad_input, "320x240", [&] { rectify({still().pictures.left, blank.right}); });
   if (!std::filesystem::exists(shared("teddy"))) GTEST_SKIP() << "no " << shared("teddy").string();
   const StereoPair teddy{read_image(shared("teddy") / "left.png"), read_image(shared("teddy") / "right.png")};
-  const StereoPair small = make_synthetic_still({.width = 450, .height = 375, .samples_a_side = 1}).pictures;
+  const StereoPair& small = still_life(450, 375).pictures;
   expect_error(ErrorKind::bad_input, "do not show the same scene", [&] { rectify({teddy.left, small.right}); });
 }
 

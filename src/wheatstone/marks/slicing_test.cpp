@@ -12,7 +12,7 @@ namespace wheatstone::slicing_test {
 
 const Painting& painting() {
   static const Painting planned = [] {
-    const SyntheticStill still = make_synthetic_still({.width = 160, .height = 120});
+    const SyntheticStill still = make_synthetic_still({.width = 160, .height = 120, .samples_a_side = 1});
     return plan_painting(still.pictures, still.geometry, style_by_name("oil"));
   }();
   return planned;

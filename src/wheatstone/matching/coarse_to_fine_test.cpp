@@ -11,17 +11,14 @@
 #include <limits>
 #include <opencv2/imgproc.hpp>
 
+#include "scenes/still_life.h"
 #include "wheatstone/image/mat_opencv.h"
 #include "wheatstone/matching/fill_in_picture_internal.h"
 #include "wheatstone/random.h"
-#include "wheatstone/synthetic/synthetic_still.h"
 
 namespace wheatstone::coarse_to_fine_test {
 
-const SyntheticStill& still() {
-  static const SyntheticStill made = make_synthetic_still({.width = 320, .height = 240, .samples_a_side = 1});
-  return made;
-}
+const SyntheticStill& still() { return still_life(320, 240); }
 
 /// A picture from a poorer camera: darker, and with noise of its own, ±`noise` levels.
 Image<Rgb8> from_poor_camera(const Image<Rgb8>& picture, double exposure, float noise, std::uint64_t seed) {

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "scenes/still_life.h"
 #include "wheatstone/matching/match.h"
-#include "wheatstone/synthetic/synthetic_still.h"
 
 namespace wheatstone::map_flaws_test {
 
@@ -50,7 +50,7 @@ TEST(MapFlaws, CountNoPatchesAtAnEdgeOfThePhotograph) {
 }
 
 TEST(MapFlaws, AreAsFewInAMatchedMapAsInTheTrueOne) {
-  const SyntheticStill still = make_synthetic_still({.width = 480, .height = 360, .seed = 1, .samples_a_side = 1});
+  const SyntheticStill& still = still_life(480, 360);
   const double truth = patch_share(still.geometry.left_disparity, still.pictures.left);
   const double matched = patch_share(match(still.pictures).geometry.left_disparity, still.pictures.left);
   RecordProperty("shares", fmt::format("true {:.4f}, matched {:.4f}", truth, matched));

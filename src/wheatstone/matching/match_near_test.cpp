@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 
-#include "wheatstone/synthetic/synthetic_still.h"
+#include "scenes/still_life.h"
 
 namespace wheatstone::match_near_test {
 
@@ -31,7 +31,7 @@ class MatchNear : public testing::Test {
     EXPECT_TRUE(matched);
     return mean_error(matched->geometry.left_disparity, still_.geometry.left_disparity);
   }
-  SyntheticStill still_ = make_synthetic_still({.width = 480, .height = 320, .samples_a_side = 1});
+  const SyntheticStill& still_ = still_life(480, 320);
   MatchOptions options_;
 };
 

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <numbers>
 
+#include "scenes/still_life.h"
 #include "shared_data.h"
 #include "wheatstone/image/mat_opencv.h"
 #include "wheatstone/matching/map_flaws_internal.h"
@@ -17,7 +18,6 @@
 #include "wheatstone/pictures/disparity_file.h"
 #include "wheatstone/pictures/read_image.h"
 #include "wheatstone/random.h"
-#include "wheatstone/synthetic/synthetic_still.h"
 
 namespace wheatstone::match_quality_test {
 
@@ -100,8 +100,8 @@ TEST(MatchQuality, FindsTeddyAsWellAsItPromises) {
 }
 
 TEST(MatchQuality, BestIsNoWorseThanGood) {
-  SyntheticStill still = make_synthetic_still({.width = 480, .height = 360, .samples_a_side = 1});
-  const Subject subject{std::move(still.pictures), std::move(still.geometry.left_disparity)};
+  const SyntheticStill& still = still_life(480, 360);
+  const Subject subject{still.pictures, still.geometry.left_disparity};
   EXPECT_LE(bad_2(subject, MatchQuality::best), bad_2(subject, MatchQuality::good) + 0.003);
 }
 

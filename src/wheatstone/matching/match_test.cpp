@@ -10,6 +10,7 @@
 #include <opencv2/core/utility.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "scenes/still_life.h"
 #include "shared_data.h"
 #include "wheatstone/error.h"
 #include "wheatstone/image/mat_opencv.h"
@@ -17,14 +18,10 @@
 #include "wheatstone/measures/consistency.h"
 #include "wheatstone/pictures/disparity_file.h"
 #include "wheatstone/pictures/read_image.h"
-#include "wheatstone/synthetic/synthetic_still.h"
 
 namespace wheatstone::match_test {
 
-const SyntheticStill& still() {
-  static const SyntheticStill made = make_synthetic_still({.width = 480, .height = 360, .samples_a_side = 1});
-  return made;
-}
+const SyntheticStill& still() { return still_life(480, 360); }
 
 /// Share of the pixels visible in both views whose disparity is off by more than 2 pixels, or unknown.
 double bad_2(const Image<float>& found, const Image<float>& truth) {
@@ -79,8 +76,7 @@ TEST(Match, FindsTheRangeByItself) {
 }
 
 TEST(Match, WorksWhereDisparitiesHaveBothSigns) {
-  const SyntheticStill converged =
-      make_synthetic_still({.width = 320, .height = 240, .samples_a_side = 1, .converged = true});
+  const SyntheticStill& converged = still_life(320, 240, 1, true);
   const MatchedPair matched = match(converged.pictures);
   EXPECT_LT(matched.range.least, 0);
   EXPECT_LT(bad_2(matched.geometry.left_disparity, converged.geometry.left_disparity), 0.12);
@@ -127,7 +123,7 @@ TEST(Match, RefusesWhatIsTooSmallOrDoesNotFit) {
 
 TEST(Match, ReducesWhatIsTooLargeToBeMatchedAsItIs) {
   // 600 disparities are more than are looked for at full size.
-  const SyntheticStill wide = make_synthetic_still({.width = 900, .height = 300, .samples_a_side = 1});
+  const SyntheticStill& wide = still_life(900, 300);
   MatchOptions options;
   options.range = DisparityRange{-520, 80};
   const MatchedPair matched = match(wide.pictures, options);
@@ -167,7 +163,7 @@ std::array<double, 3> confidences_of(const MatchedPair& matched) {
 }
 
 TEST(MatchConfidencePicture, SaysWhereTheDisparityIsFound) {
-  const SyntheticStill still = make_synthetic_still({.width = 320, .height = 240, .samples_a_side = 1});
+  const SyntheticStill& still = still_life(320, 240);
   for (const double size : {1.0, 0.5}) {
     MatchOptions options;
     options.size = size;

@@ -60,7 +60,7 @@ TEST(LeftRightDifference, InterpolatesAlongTheScanLine) {
 }
 
 TEST(LeftRightDifference, ComesOutBadlyForPairsThatDoNotFuse) {
-  const SyntheticStill still = spoiled::small_still();
+  const SyntheticStill& still = spoiled::small_still();
   const auto rmse = [&](const StereoPair& pair) {
     return measure_left_right_difference(pair, still.geometry.left_disparity).rmse;
   };
@@ -86,7 +86,7 @@ TEST(GradientEnergy, HasHandComputedValues) {
 
 // Blur makes the eyes more alike: what catches it is the gradient energy, of both and between them.
 TEST(GradientEnergy, TellsBlurWhichTheDifferenceRewards) {
-  const SyntheticStill still = spoiled::small_still();
+  const SyntheticStill& still = spoiled::small_still();
   const StereoPair photographs = spoiled::noised(still.pictures, 8);  // as cameras make them
   const StereoPair blurred = spoiled::blurred(photographs, 2);
   const auto rmse = [&](const StereoPair& pair) {

@@ -16,7 +16,7 @@ namespace wheatstone::depth_survival_test {
 
 TEST(DepthSurvival, FindsTheDepthOfUnspoiledPictures) {
   for (const bool converged : {false, true}) {
-    const SyntheticStill still = spoiled::small_still(converged);
+    const SyntheticStill& still = spoiled::small_still(converged);
     const DepthSurvival survival = measure_depth_survival(still.pictures, still.geometry.left_disparity);
     EXPECT_GT(survival.density, 0.93) << converged;
     EXPECT_LT(survival.bad_2, 0.10) << converged;
@@ -27,7 +27,7 @@ TEST(DepthSurvival, FindsTheDepthOfUnspoiledPictures) {
 }
 
 TEST(DepthSurvival, ComesOutBadlyForSpoiledPairs) {
-  const SyntheticStill still = spoiled::small_still();
+  const SyntheticStill& still = spoiled::small_still();
   const auto bad_2 = [&](const StereoPair& pair) {
     return measure_depth_survival(pair, still.geometry.left_disparity).bad_2;
   };
@@ -39,13 +39,13 @@ TEST(DepthSurvival, ComesOutBadlyForSpoiledPairs) {
 }
 
 TEST(DepthSurvival, AFlatPairLosesEverything) {
-  const SyntheticStill still = spoiled::small_still();
+  const SyntheticStill& still = spoiled::small_still();
   const StereoPair flat{Image<Rgb8>(400, 300, {90, 90, 90}), Image<Rgb8>(400, 300, {90, 90, 90})};
   EXPECT_GT(measure_depth_survival(flat, still.geometry.left_disparity).bad_2, 0.95);
 }
 
 TEST(DepthSurvival, JudgesOnlyWhereTheTruthIsKnown) {
-  const SyntheticStill still = spoiled::small_still();
+  const SyntheticStill& still = spoiled::small_still();
   // The wrong half of the truth is declared unknown.
   Image<float> half = still.geometry.left_disparity, wrong = half;
   for (int y = 150; y < 300; ++y) {

@@ -15,7 +15,8 @@
 namespace wheatstone::painting_likeness_test {
 
 const Image<Rgb8>& photograph() {
-  static const Image<Rgb8> picture = make_synthetic_still({.width = 320, .height = 240}).pictures.left;
+  static const Image<Rgb8> picture =
+      make_synthetic_still({.width = 320, .height = 240, .samples_a_side = 1}).pictures.left;
   return picture;
 }
 

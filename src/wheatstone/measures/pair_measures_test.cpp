@@ -4,19 +4,16 @@
 #include <filesystem>
 #include <opencv2/imgproc.hpp>
 
+#include "scenes/still_life.h"
 #include "shared_data.h"
 #include "wheatstone/image/mat_opencv.h"
 #include "wheatstone/measures/consistency.h"
 #include "wheatstone/pictures/disparity_file.h"
 #include "wheatstone/pictures/read_image.h"
-#include "wheatstone/synthetic/synthetic_still.h"
 
 namespace wheatstone::pair_measures_test {
 
-const SyntheticStill& still() {
-  static const SyntheticStill made = make_synthetic_still({.width = 480, .height = 360, .samples_a_side = 1});
-  return made;
-}
+const SyntheticStill& still() { return still_life(480, 360); }
 
 /// Each eye changed on its own: pixels swapped about at random within a few rows.
 Image<Rgb8> torn(const Image<Rgb8>& picture, std::uint32_t seed) {

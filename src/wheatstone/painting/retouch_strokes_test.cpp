@@ -9,21 +9,18 @@
 #include <iterator>
 #include <vector>
 
+#include "scenes/still_life.h"
 #include "wheatstone/marks/painting_file.h"
 #include "wheatstone/painting/paint.h"
 #include "wheatstone/painting/present.h"
 #include "wheatstone/painting/two_eyes.h"
 #include "wheatstone/stereo/geometry_from_disparity.h"
-#include "wheatstone/synthetic/synthetic_still.h"
 
 namespace wheatstone::retouch_strokes_test {
 
 constexpr Rgb8 green{20, 220, 30};
 
-const SyntheticStill& still() {
-  static const SyntheticStill made = make_synthetic_still({.width = 240, .height = 180, .samples_a_side = 1});
-  return made;
-}
+const SyntheticStill& still() { return still_life(240, 180); }
 
 const Painting& painting() {
   static const Painting planned = plan_painting(still().pictures, still().geometry, style_by_name("oil"));

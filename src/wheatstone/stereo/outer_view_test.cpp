@@ -6,8 +6,8 @@
 
 #include <cmath>
 
+#include "scenes/still_life.h"
 #include "scenes/two_surfaces.h"
-#include "wheatstone/synthetic/synthetic_still.h"
 
 namespace wheatstone::outer_view_test {
 
@@ -61,7 +61,7 @@ TEST(OuterView, TheFartherSurfaceGoesOnInWhatIsUncovered) {
 }
 
 TEST(OuterView, NoEyeWouldSeeWhatItContinues) {
-  const SyntheticStill still = make_synthetic_still({.width = 320, .height = 240, .samples_a_side = 1});
+  const SyntheticStill& still = still_life(320, 240);
   for (const float position : {-2.5f, 0.f, 2.5f}) {
     const View outer = make_outer_view(scene_from_left(still.pictures, still.geometry), ViewPosition(position), 0);
     int uncovered = 0, seen = 0;

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <limits>
 
+#include "scenes/still_life.h"
 #include "throws_error.h"
 #include "wheatstone/measures/consistency.h"
-#include "wheatstone/synthetic/synthetic_still.h"
 
 namespace wheatstone::single_view_test {
 
@@ -61,7 +61,7 @@ TEST(SingleView, FillsUnknownDisparitiesAndRefusesNothingButThem) {
 }
 
 TEST(SingleView, IsAsConsistentAsThePairThatCamerasTake) {
-  const SyntheticStill still = make_synthetic_still({.width = 320, .height = 240, .samples_a_side = 1});
+  const SyntheticStill& still = still_life(320, 240);
   const MadePair made = make_pair_from_single_view(still.pictures.left, still.geometry.left_disparity);
   const double ours = measure_left_right_difference(made.pictures, still.geometry.left_disparity).mean_absolute;
   const double cameras = measure_left_right_difference(still.pictures, still.geometry.left_disparity).mean_absolute;
@@ -83,7 +83,7 @@ double difference_where(const Image<Rgb8>& a, const Image<Rgb8>& b, const Image<
 }
 
 TEST(SingleView, MakesTheRightPictureThatACameraTakes) {
-  const SyntheticStill still = make_synthetic_still({.width = 320, .height = 240, .samples_a_side = 1});
+  const SyntheticStill& still = still_life(320, 240);
   const MadePair made = make_pair_from_single_view(still.pictures.left, still.geometry.left_disparity);
   const Image<std::uint8_t>& hidden = still.geometry.right_occlusion;
   const double seen_by_both = difference_where(made.pictures.right, still.pictures.right, hidden, false);

@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scenes/still_life.h"
 #include "wheatstone/drawing/rasterise.h"
 #include "wheatstone/marks/painting.h"
 #include "wheatstone/painting/paint.h"
 #include "wheatstone/strokes/layer_plan.h"
-#include "wheatstone/synthetic/synthetic_still.h"
 
 namespace wheatstone::fit_layer_test {
 
@@ -18,6 +18,8 @@ Style oil() {
   style.fineness = 0.5f;
   return style;
 }
+
+const SyntheticStill& still() { return still_life(240, 180); }
 
 /// Stripes of a few colours that run aslant, and a wall of one colour on the right.
 Image<Rgb8> stripes_and_wall(int width, int height) {
@@ -60,7 +62,7 @@ double difference_left(const Bench& bench, const StrokePainting& painting) {
 }
 
 TEST(FittedStrokes, KeepMoreOfThePictureThanTracedOnesOfTheSameNumber) {
-  Bench bench(make_synthetic_still({.width = 240, .height = 180}).pictures.left);
+  Bench bench(still().pictures.left);
   bench.style.fineness = 0.4f;
   const StrokePainting fitted = bench.plan();
   std::size_t count = 0;
@@ -129,7 +131,7 @@ TEST(FittedStrokes, StayOnTheirSurface) {
 }
 
 TEST(FittedStrokes, AreTheSameOnAnyNumberOfThreads) {
-  Bench bench(make_synthetic_still({.width = 400, .height = 300}).pictures.left);
+  Bench bench(still_life(400, 300).pictures.left);
   const StrokePainting painting = bench.plan();
   for (const std::size_t threads : {1, 3}) {
     const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
@@ -138,7 +140,7 @@ TEST(FittedStrokes, AreTheSameOnAnyNumberOfThreads) {
 }
 
 TEST(FittedStrokes, TakeAtMostTwentyNumbersEach) {
-  Bench bench(make_synthetic_still({.width = 240, .height = 180}).pictures.left);
+  Bench bench(still().pictures.left);
   std::size_t numbers = 0, strokes = 0;
   for (const Layer& layer : bench.plan().layers) {
     strokes += layer.strokes.size();
@@ -149,12 +151,11 @@ TEST(FittedStrokes, TakeAtMostTwentyNumbersEach) {
 }
 
 TEST(StrokeBudget, IsKeptAndSpent) {
-  const SyntheticStill still = make_synthetic_still({.width = 240, .height = 180});
   Style style = oil();
   std::size_t before = 0;
   for (const int budget : {2500, 4000}) {
     style.strokes = budget;
-    const std::size_t count = count_marks(plan_painting(still.pictures, still.geometry, style)).count;
+    const std::size_t count = count_marks(plan_painting(still().pictures, still().geometry, style)).count;
     EXPECT_LE(count, static_cast<std::size_t>(budget));
     EXPECT_GE(count, static_cast<std::size_t>(budget) * 8 / 10);
     EXPECT_GT(count, before);
