@@ -139,7 +139,7 @@ constexpr Command particle_table[] = {
     {"magnify",
      "FACTOR",
      "Particles",
-     "Magnification of particles or a model",
+     "Magnification",
      "",
      [](Viewer& v, const Words& w) { state_of(v).orbit.zoom = static_cast<float>(number_of(w[0], 0.01, 1e6)); },
      {.now = [](const Viewer& v) { return fmt::format("{}", v.session().state.orbit.zoom); },
