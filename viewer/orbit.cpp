@@ -24,6 +24,11 @@ std::optional<Orbited> orbited(const Content& content) {
   return {};
 }
 
+Orbited orbited_or_refuse(const Content& content) {
+  if (const std::optional<Orbited> open = orbited(content)) return *open;
+  throw Error(ErrorKind::wrong_usage, "no particles and no model are open");
+}
+
 OrbitedScene orbited_scene(const Content& content, const ViewState& state, const Rig& rig) {
   if (const auto* const model = std::get_if<ModelContent>(&content)) {
     ModelScene scene = scene_of(*model->model, render_options(state, rig));

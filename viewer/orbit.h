@@ -23,6 +23,9 @@ struct Orbited {
 /// None where something else is open.
 std::optional<Orbited> orbited(const Content& content);
 
+/// The same; throws Error{wrong_usage} where something else is open.
+Orbited orbited_or_refuse(const Content& content);
+
 /// The central camera of the views of a rig, and how deep they stand, as `wheatstone render` has them with the options
 /// of the state. Of what is orbited. Throws Error{wrong_usage} where the options make no sense.
 struct OrbitedScene {

@@ -22,11 +22,10 @@ void orbit(Viewer& viewer, const Words& words) {
 }
 
 void look_at(Viewer& viewer, const Words& words) {
-  const std::optional<Orbited> open = orbited(viewer.session().opened.content);
-  if (!open) throw Error(ErrorKind::wrong_usage, "no particles and no model are open");
+  const Orbited open = orbited_or_refuse(viewer.session().opened.content);
   std::array<float, 3> point{};
   for (std::size_t axis = 0; axis < 3; ++axis)
-    point[axis] = static_cast<float>(number_of(words[axis]) - open->origin[axis]);
+    point[axis] = static_cast<float>(number_of(words[axis]) - open.origin[axis]);
   state_of(viewer).orbit.look_at = point;
 }
 

@@ -113,14 +113,13 @@ void look_along(Session& session) {
 }
 
 CameraKey key_here(const Session& session) {
-  const std::optional<Orbited> open = orbited(session.opened.content);
-  if (!open) throw Error(ErrorKind::wrong_usage, "no particles and no model are open");
+  const Orbited open = orbited_or_refuse(session.opened.content);
   const Framing& orbit = session.state.orbit;
   constexpr float most_zoom = 1000;  // in a path, as of render
   if (orbit.zoom > most_zoom)
     throw Error(ErrorKind::wrong_usage,
                 fmt::format("the magnification is {}, a keyframe has at most {}", orbit.zoom, most_zoom));
-  const std::array<float, 3> middle = orbit.look_at.value_or(open->middle);
+  const std::array<float, 3> middle = orbit.look_at.value_or(open.middle);
   CameraKey key{.at = session.state.share,
                 .azimuth_deg = orbit.azimuth_deg,
                 .elevation_deg = orbit.elevation_deg,
@@ -128,7 +127,7 @@ CameraKey key_here(const Session& session) {
                 .zoom = orbit.zoom,
                 .centre = std::array<double, 3>()};
   for (std::size_t axis = 0; axis < 3; ++axis)
-    (*key.centre)[axis] = static_cast<double>(middle[axis]) + open->origin[axis];
+    (*key.centre)[axis] = static_cast<double>(middle[axis]) + open.origin[axis];
   const std::vector<CameraKey>& keys = session.camera_path.keys;
   // Where the path says when, so do all of its keys; elsewhere time goes on evenly.
   if (std::ranges::any_of(keys, [](const CameraKey& other) { return other.time.has_value(); }))

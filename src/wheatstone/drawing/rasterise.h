@@ -9,8 +9,8 @@
 
 namespace wheatstone {
 
-/// Rows of a band, which one thread draws at a time; what is drawn in one does not depend on the others. 32 rows of four
-/// float planes 1920 wide are just under a megabyte and stay in the second-level cache.
+/// Rows of a band, which one thread draws at a time; what is drawn in one does not depend on the others. 32 rows of
+/// four float planes 1920 wide are just under a megabyte and stay in the second-level cache.
 inline constexpr int band_rows = 32;
 constexpr int band_count(int height) { return (height + band_rows - 1) / band_rows; }
 
