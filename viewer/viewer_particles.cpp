@@ -8,20 +8,15 @@
 
 #include "orbit.h"
 #include "particle_film.h"
+#include "particle_scene.h"
 #include "viewer.h"
 #include "wheatstone/error.h"
 
 namespace wheatstone::viewer {
 namespace {
 
-const Particles* particles_of(const Session& session) {
-  const auto* const content = std::get_if<ParticlesContent>(&session.opened.content);
-  return content != nullptr ? content->particles.get() : nullptr;
-}
-
 /// What a series shows: the redshift where its time is the scale factor.
-std::string moment_told(const Session& session, double time) {
-  const Particles& particles = *particles_of(session);
+std::string moment_told(const Particles& particles, double time) {
   if (particles.redshift) return fmt::format("z = {:.3f}", std::max(1 / time - 1, 0.));
   return fmt::format("time {:.5g}", time);
 }
@@ -52,7 +47,7 @@ void Viewer::show_particles_at(double seconds) {
   film.frame = std::llround(film.seconds * particle_frames_a_second);
   session_.state.share = film.seconds / film.duration_s;
   if (!session_.camera_path.keys.empty()) look_along(session_);
-  if (!times_of(session_).empty()) film.moment = moment_told(session_, series_time(session_));
+  if (!times_of(session_).empty()) film.moment = moment_told(*open_particles(*this), series_time(session_));
 }
 
 void Viewer::move_particles(double passed_s) {
@@ -64,7 +59,7 @@ void Viewer::move_particles(double passed_s) {
 }
 
 void Viewer::read_wanted_particles() {
-  const Particles* const particles = particles_of(session_);
+  const Particles* const particles = open_particles(*this);
   if (particles == nullptr || !session_.opened.reader || reads_particles_ || session_.opening) return;
   const std::string& quantity = session_.state.look.quantity;
   const bool is_series = !times_of(session_).empty();
@@ -101,7 +96,7 @@ void Viewer::post_particles_failure(const Error& error, double time, std::uint64
     if (job != job_) return;
     reads_particles_ = false;
     session_.opening.reset();
-    const Particles& particles = *particles_of(session_);
+    const Particles& particles = *open_particles(*this);
     if (quantity_name_of(session_.state.look.quantity) != particles.quantity) {
       session_.state.look.quantity = particles.quantity;
       forget_brightness(session_.state.look);
