@@ -4,6 +4,7 @@
 
 #include "options.h"
 #include "wheatstone/app/render_limits.h"
+#include "wheatstone/files/struct_fields.h"
 
 namespace wheatstone::cli {
 
@@ -37,12 +38,32 @@ Rows model_rows(ModelArguments& arguments) {
           "Colour around the model")};
 }
 
-ModelPictures render_model_argument(const std::filesystem::path& file, const ModelArguments& arguments,
-                                    ViewRange wanted, const Session& session) {
+namespace {
+
+RenderParticlesOptions seen_by(const ModelArguments& arguments) {
   RenderParticlesOptions seen = arguments.seen;
   seen.width = arguments.size.width;
   seen.height = arguments.size.height;
+  return seen;
+}
+
+}  // namespace
+
+ModelPictures render_model_argument(const std::filesystem::path& file, const ModelArguments& arguments,
+                                    ViewRange wanted, const Session& session) {
+  const RenderParticlesOptions seen = seen_by(arguments);
   return model_pictures(ready_model(file, seen, session.progress), seen, wanted, session.progress);
+}
+
+ModelFilm film_of_model_argument(const std::filesystem::path& file, const ModelArguments& arguments,
+                                 const CameraMotion& motion, Rational rate, const Session& session) {
+  const RenderParticlesOptions seen = seen_by(arguments);
+  return film_of_model(ready_model(file, seen, session.progress), moved(motion, seen), rate);
+}
+
+std::string recipe_of(const ModelArguments& arguments, const CameraMotion& motion, Rational rate) {
+  return fmt::format("{}{}{}{}{}", text_of_fields(arguments.seen.framing), text_of_fields(arguments.seen.model),
+                     text_of_fields(arguments.size), text_of_fields(motion), text_of_fields(rate));
 }
 
 }  // namespace wheatstone::cli

@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 
+#include "camera_motion.h"
 #include "options.h"
 #include "wheatstone/app/annotate.h"
 #include "wheatstone/app/render_particles.h"
@@ -19,9 +20,7 @@ enum class Distribution { particles, frames };
 
 /// What `render` is told of a film.
 struct RenderFilmArguments {
-  int frames = 0;  ///< 0: one a snapshot
-  float orbit_deg = 0;
-  std::string camera;  ///< a path's file
+  CameraMotion motion;
   Rational rate{24, 1};
   std::optional<StereoLayout> output_layout;
   std::string frame_range;

@@ -79,9 +79,7 @@ FrameSource frames_of_slices(const RenderArguments& arguments, const RenderParti
 /// Of particles or of a model.
 FrameSource frames_of_scene(const RenderArguments& arguments, const RenderParticlesOptions& options, int& count,
                             const Progress& progress) {
-  ParticleFramesOptions wanted{
-      .particles = options, .count = arguments.film.frames, .orbit_deg = arguments.film.orbit_deg};
-  if (!arguments.film.camera.empty()) wanted.path = read_camera_path(arguments.film.camera);
+  ParticleFramesOptions wanted = moved(arguments.film.motion, options);
   if (reads_model(arguments)) {
     ModelFrames frames = frames_of_model(arguments.file, std::move(wanted), progress);
     count = frames.count;
@@ -147,7 +145,7 @@ Report run_render_film(const RenderArguments& given, const Session& session) {
                          .made_by = recipe_of(given.given),
                          .made_from = {arguments.file},
                          .skip_existing = arguments.film.skip_existing};
-  if (!arguments.film.camera.empty()) film.made_from.emplace_back(arguments.film.camera);
+  if (!arguments.film.motion.path.empty()) film.made_from.emplace_back(arguments.film.motion.path);
   if (!options.model.choice.texture.empty()) film.made_from.emplace_back(options.model.choice.texture);
   choose_output(arguments, options, film);
   check_not_an_input(arguments.output, film.made_from);

@@ -437,14 +437,11 @@ Rows method_rows(RenderArguments& a) {
 Rows film_rows(RenderArguments& a) {
   RenderFilmArguments& film = a.film;
   const Reason camera = when([&a] { return reads_slices(a); }, "on slices (.exr); the camera stays where it was");
-  const Rows moving{
-      row("--frames", without_default(number(film.frames, {1, 10'000'000})),
-          "Number of frames of a film, from the first snapshot of a series (snap_%03d.hdf5) to the last; one a "
-          "snapshot by default",
-          {camera}),
-      row("--orbit", without_default(number(film.orbit_deg, {-36'000, 36'000})),
-          "Degrees that the camera turns around the middle of the views during the film", {camera}),
-      row("--camera", text(film.camera), "Keyframes of the camera and of time: FILE.toml", {camera}),
+  const Rows moving = motion_rows(film.motion,
+                                  "Number of frames of a film, from the first snapshot of a series (snap_%03d.hdf5) to "
+                                  "the last; one a snapshot by default",
+                                  {camera});
+  const Rows shown{
       row("--rate", parsed(film.rate, parse_frame_rate, {}, "24"), "Frames per second, for example 25 or 24000/1001"),
       row("--output-layout", film_layout(film.output_layout),
           "Stereo layout of a film of two views; side by side by default",
@@ -455,10 +452,11 @@ Rows film_rows(RenderArguments& a) {
       row("--distribute", choice(film.distribute, distributions),
           "What the processes of mpirun share: the particles of each frame, or whole frames"),
       row("--skip-existing", flag(film.skip_existing), "Leave numbered pictures alone that are there already")};
-  return under("Film",
-               join({moving, film_coding_rows(film.writing), film_resume_rows(film.resume, film.checkpoint), frames}),
-               {when([&a] { return !makes_film(a); },
-                     "on one moment of one snapshot; it works on films: --frames, or a series")});
+  return under(
+      "Film",
+      join({moving, shown, film_coding_rows(film.writing), film_resume_rows(film.resume, film.checkpoint), frames}),
+      {when([&a] { return !makes_film(a); },
+            "on one moment of one snapshot; it works on films: --frames, or a series")});
 }
 
 }  // namespace

@@ -200,6 +200,23 @@ void take_truth(const RotoscopeArguments& arguments, const Session& session, Rot
     options.made_from.push_back(fs::path(arguments.truth) / file);
 }
 
+/// The film; or a model as a film, whose exact geometry goes into the options.
+StereoFilmReader open_source(const RotoscopeArguments& arguments, const FilmFiles& film, const Session& session,
+                             RotoscopeFilmOptions& options) {
+  if (!is_of_model(arguments)) return open_film(film, options.reading);
+  if (!session.ranks.alone())
+    throw Error(ErrorKind::wrong_usage,
+                fmt::format("{}: is a model, which is painted in one process, not under mpirun", arguments.film));
+  const Rational rate = options.reading.sequence_rate;
+  ModelFilm made = film_of_model_argument(film.film, arguments.model, arguments.motion, rate, session);
+  options.known = std::move(made.known);
+  options.frames.carrying.length_tolerance = carried_on_models().length_tolerance;
+  options.made_by += fmt::format(" of a model {}", recipe_of(arguments.model, arguments.motion, rate));
+  for (const fs::path& file : {fs::path(arguments.motion.path), arguments.model.seen.model.choice.texture})
+    if (!file.empty()) options.made_from.push_back(file);
+  return std::move(made.source);
+}
+
 /// Frames of one film are drawn by one device: --resume compares it.
 void take_device(const Session& session, RotoscopeFilmOptions& options) {
   if (options.frames.device != Device::processor && !session.ranks.alone())
@@ -213,15 +230,16 @@ FilmFiles films_from(const RotoscopeArguments& arguments) {
                                                      {"--preview", arguments.shots.preview}}});
   std::optional<StereoLayout> layout = arguments.layout;
   if (has_depth(arguments.depth) && !layout) layout = StereoLayout::mono;
-  FilmFiles film = find_film(arguments.film, layout);
+  FilmFiles film = is_of_model(arguments) ? FilmFiles{arguments.film, {}, {}} : find_film(arguments.film, layout);
   if (!arguments.right.empty()) film = {arguments.film, arguments.right, {}};
   const fs::path depth = arguments.depth.file, model = arguments.depth.model;
-  const fs::path shots = arguments.shots.file, mask = arguments.mask.file;
+  const fs::path shots = arguments.shots.file, mask = arguments.mask.file, camera = arguments.motion.path,
+                 texture = arguments.model.seen.model.choice.texture;
   for (const fs::path& output :
        {fs::path(arguments.output), arguments.options.right_film, fs::path(arguments.shots.preview)})
     if (!output.empty())
-      check_not_an_input(
-          output, std::array{film.film, film.right, depth, model, arguments.options.frames.flow_model, shots, mask});
+      check_not_an_input(output, std::array{film.film, film.right, depth, model, arguments.options.frames.flow_model,
+                                            shots, mask, camera, texture});
   return film;
 }
 
@@ -229,8 +247,8 @@ FilmReaderOptions reading_options(const RotoscopeArguments& arguments, const Fil
   FilmReaderOptions reading{
       .from_s = arguments.from_s, .to_s = arguments.to_s, .every = arguments.frame_step, .threads = session.threads};
   if (!arguments.rate) return reading;
-  if (!frame_pattern(film.film))
-    throw Error(ErrorKind::wrong_usage, "--rate: a film says its own, expected numbered pictures");
+  if (!is_of_model(arguments) && !frame_pattern(film.film))
+    throw Error(ErrorKind::wrong_usage, "--rate: a film says its own, expected numbered pictures or a model");
   reading.sequence_rate = *arguments.rate;
   return reading;
 }
@@ -299,7 +317,7 @@ Report run_rotoscope(const RotoscopeArguments& given, const Session& session) {
   options.version = WHEATSTONE_VERSION;
   options.made_by = fmt::format("wheatstone {}", WHEATSTONE_VERSION);
   take_device(session, options);
-  StereoFilmReader source = open_film(film, options.reading);
+  StereoFilmReader source = open_source(arguments, film, session, options);
   const bool has_one_eye = !has_depth(arguments.depth) && source.layout() == StereoLayout::mono && film.right.empty();
   if (has_depth(arguments.depth)) take_depth(arguments, film, source, options);
   if (has_one_eye) refuse_for_one_eye(arguments, film);
@@ -328,7 +346,7 @@ Report run_rotoscope(const RotoscopeArguments& given, const Session& session) {
 
 Command rotoscope_command() {
   return make_command(
-      "rotoscope", "Paint a stereo or ordinary film; strokes follow the motion of the film", rotoscope_rows,
+      "rotoscope", "Paint a stereo or ordinary film, or a model that turns; strokes follow the motion", rotoscope_rows,
       run_rotoscope,
       R"(Strokes are planned in the view between the eyes and follow the motion of the film. Audio and subtitles are
 copied. --resume continues a stopped run and gives the same film.
@@ -340,6 +358,7 @@ Examples:
   wheatstone rotoscope walk.mp4 --depth depth.mp4 -o painted.mp4
   wheatstone synth film -o film && wheatstone rotoscope film -o painted.mp4
   wheatstone rotoscope film.mp4 --mask matte.mp4 --outside mosaic -o painted.mp4
+  wheatstone rotoscope model.glb --frames 8 --orbit 30 --picture-size 640x360 -o turntable.mp4
   wheatstone rotoscope film.mp4 --plan film.plan -o painted.mp4
   wheatstone rotoscope --draw film.plan --frame-range 1/2 && wheatstone rotoscope --draw film.plan --frame-range 2/2
   wheatstone rotoscope --join film.plan

@@ -10,6 +10,7 @@
 #include "film_plan_run.h"
 #include "film_shots_run.h"
 #include "match_options.h"
+#include "model_argument.h"
 #include "options.h"
 #include "style_options.h"
 #include "wheatstone/app/eyes_in_film.h"
@@ -34,10 +35,15 @@ struct RotoscopeArguments {
   MaskArguments mask;
   PlanArguments plan;
   ShotsArguments shots;
+  ModelArguments model;
+  CameraMotion motion{.frames = 96, .orbit_deg = 360};
   RotoscopeFilmOptions options;
   MatchArguments matching;
   StyleArguments style;
 };
+
+/// Whether the film is made of a model of triangles.
+bool is_of_model(const RotoscopeArguments& arguments);
 
 /// Whether the output is only marks.
 bool writes_marks(const RotoscopeArguments& arguments);

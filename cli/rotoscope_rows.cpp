@@ -12,32 +12,47 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Models are rendered.
+Reason of_film(const RotoscopeArguments& a) {
+  return when([&a] { return is_of_model(a); }, "on a model of triangles; it works on films");
+}
+
+Reason with_exact_motion(const RotoscopeArguments& a) {
+  return [&a]() -> std::string {
+    if (is_of_model(a)) return "on a model of triangles, whose flow and disparity are exact";
+    return a.truth.empty() ? "" : "with --truth; the exact flow and disparity are read";
+  };
+}
+
 Rows film_rows(RotoscopeArguments& a) {
   const Rows source{
       row("--layout", film_layout(a.layout),
           "Stereo layout of the film: sbs, sbs-half, tb, tb-half, mono, …; by default from its metadata, or else "
-          "estimated from the pictures"),
+          "estimated from the pictures",
+          {of_film(a)}),
       row("--output-layout", parsed(a.output_layout, find_eyes_in_film),
           "Stereo layout of the painted film, such as sbs-half for televisions, or anaglyph, or a kind of anaglyph, or "
           "two-files, a film for each eye; that of the source by default",
           {when([&a] { return !a.display.name.empty(); }, "with --display; it works where two eyes are painted")}),
       projection_row(a.options.writing,
                      {when([&a] { return !a.display.name.empty(); }, "with --display; its films lie on no sphere")}),
-      row("--from", parsed(a.from_s, parse_time_s), "Start time: seconds or [HH:]MM:SS"),
-      row("--to", parsed(a.to_s, parse_time_s), "End time: seconds or [HH:]MM:SS"),
+      row("--from", parsed(a.from_s, parse_time_s), "Start time: seconds or [HH:]MM:SS", {of_film(a)}),
+      row("--to", parsed(a.to_s, parse_time_s), "End time: seconds or [HH:]MM:SS", {of_film(a)}),
       row("--rate", parsed(a.rate, parse_frame_rate),
-          "Frames per second of numbered pictures, for example 25 or 24000/1001; 24 by default"),
-      row("--frame-step", number(a.frame_step, {1, 1'000'000}), "Paint every Nth frame only")};
+          "Frames per second of numbered pictures or a model, for example 25 or 24000/1001; 24 by default"),
+      row("--frame-step", number(a.frame_step, {1, 1'000'000}), "Paint every Nth frame only", {of_film(a)})};
   const Rows marks{row("--save-marks", text(a.options.marks), "Also write the marks of each frame: marks_%04d.wst",
                        {when([&a] { return !a.options.plan.empty(); }, "with --plan, which has the marks")})};
   const Rows damaged{row("--keep-going", flag(a.options.keep_going),
                          "Paint the frames of a damaged film that can be decoded, without an error at the end")};
-  return under("Film", join({source, film_coding_rows(a.options.writing), side_stream_rows(a.options.writing), marks,
+  return under("Film", join({source, film_coding_rows(a.options.writing),
+                             under({}, side_stream_rows(a.options.writing), {of_film(a)}), marks,
                              film_resume_rows(a.options.resume, a.options.frames_between_checkpoints), damaged}));
 }
 
-/// "with --truth" or "with --depth", which stand in for what is estimated.
+/// "on a model of triangles", "with --truth" or "with --depth", which stand in for what is estimated.
 std::string known_depth(const RotoscopeArguments& a) {
+  if (is_of_model(a)) return "on a model of triangles";
   if (!a.truth.empty()) return "with --truth";
   return has_depth(a.depth) ? "with " + option_of(a.depth) : "";
 }
@@ -54,7 +69,7 @@ Rows time_rows(RotoscopeArguments& a) {
       {{"dis", FlowMethod::dis}, {"farneback", FlowMethod::farneback}, {"onnx", FlowMethod::onnx}}};
   static constexpr std::array<Choice<CentralMerge>, 2> merges{
       {{"visible", CentralMerge::visible}, {"average", CentralMerge::average}}};
-  const Reason truth = when([&a] { return !a.truth.empty(); }, "with --truth; the exact flow and disparity are read");
+  const Reason truth = with_exact_motion(a);
   const Reason anew =
       when([&a] { return a.options.frames.anew; }, "with --frame-by-frame; nothing is carried from frame to frame");
   const Reason other_marks = [&a]() -> std::string {
@@ -98,15 +113,19 @@ Rows time_rows(RotoscopeArguments& a) {
            "Make a new painting for every second frame only, and show it twice, as in hand-drawn films", {truth}),
        row("--frame-by-frame", flag(frames.anew), "Paint every frame separately, which flickers; for comparison"),
        row("--truth", text(a.truth),
-           "Folder of 'synth film' whose exact flow and disparities are used instead of estimates", {with_depth(a)})});
+           "Folder of 'synth film' whose exact flow and disparities are used instead of estimates",
+           {with_depth(a), of_film(a)})});
 }
 
 }  // namespace
+
+bool is_of_model(const RotoscopeArguments& arguments) { return wheatstone::is_model(arguments.film); }
 
 bool writes_marks(const RotoscopeArguments& arguments) { return fs::path(arguments.output).extension() == ".wst"; }
 
 Rows rotoscope_rows(RotoscopeArguments& a) {
   a.matching.matcher = name_of(RotoscopeOptions().matching.matcher);  // films need a quick one
+  a.model.size = {1280, 720};
   a.options.frames.depth_budget = comfortable_parallax_share;
   const Reason marks =
       when([&a] { return writes_marks(a); }, "on marks (.wst); 'paint --display' draws them for a display");
@@ -115,8 +134,6 @@ Rows rotoscope_rows(RotoscopeArguments& a) {
   const Reason known = [&a] {
     return known_depth(a).empty() ? "" : known_depth(a) + "; nothing is matched where the disparity is given";
   };
-  const Reason with_truth =
-      when([&a] { return !a.truth.empty(); }, "with --truth; the exact flow says where scenes begin");
   const Row plan_row = row("--plan", of_type("DIR", text(a.options.plan)),
                            "Only plan the film, and write the marks of its frames to this folder, to be drawn in parts "
                            "by --draw",
@@ -124,9 +141,10 @@ Rows rotoscope_rows(RotoscopeArguments& a) {
                             when([&a] { return a.options.resume; }, "with --resume; a plan is made in one run")},
                            {}, {"--draw", "--join"});
   const Rows basic{row("FILM", required(text(a.film)),
-                       "Film with one or two eyes; numbered pictures (frame_%04d.png); a folder of them; or one film "
-                       "per eye: LEFT,RIGHT; with --draw and --join a plan"),
-                   row("RIGHT", text(a.right), "Film of the right eye, if FILM is that of the left eye"),
+                       "Film with one or two eyes; numbered pictures (frame_%04d.png); a folder of them; one film "
+                       "per eye: LEFT,RIGHT; or a model of triangles (glTF, OBJ, PLY, STL), around which the camera "
+                       "moves; with --draw and --join a plan"),
+                   row("RIGHT", text(a.right), "Film of the right eye, if FILM is that of the left eye", {of_film(a)}),
                    row("-o,--output", output_name(a.output),
                        "Painted film (.mp4, .mov, .mkv, .webm), numbered pictures (frame_%04d.png, .exr), or marks "
                        "(frame_%04d.wst); the stem of the name with --display")};
@@ -136,17 +154,20 @@ Rows rotoscope_rows(RotoscopeArguments& a) {
                ? "on the strokes of a film; they are planned in the view between the eyes"
                : "";
   });
-  const Rows all = join({basic,
-                         film_rows(a),
-                         shots_rows(a.shots, {with_truth}, {undrawn}),
-                         plan_rows(a.plan, plan_row),
-                         time_rows(a),
-                         film_depth_rows(a.depth),
-                         mask_rows(a.mask, {undrawn, on_display}),
-                         film_display_rows(a.display, {marks}),
-                         {device_row(a.options.frames.device, "What draws the planned frames", {undrawn})},
-                         style,
-                         under({}, match_rows(a.matching), {known})});
+  const Rows all = join(
+      {basic,
+       film_rows(a),
+       under({}, shots_rows(a.shots, {with_exact_motion(a)}, {undrawn}), {of_film(a)}),
+       plan_rows(a.plan, plan_row),
+       time_rows(a),
+       under({}, film_depth_rows(a.depth), {of_film(a)}),
+       mask_rows(a.mask, {undrawn, on_display}),
+       film_display_rows(a.display, {marks}),
+       {device_row(a.options.frames.device, "What draws the planned frames", {undrawn})},
+       under("Models", join({model_rows(a.model), motion_rows(a.motion, "Number of frames of a film of a model", {})}),
+             {when([&a] { return !is_of_model(a); }, "on a film; it works on models of triangles")}),
+       style,
+       under({}, match_rows(a.matching), {known})});
   return refused_on_list(refused_on_plans(all, a.plan), a.shots);
 }
 

@@ -91,6 +91,43 @@ TEST_F(ModelCommandTest, IsPaintedWithItsOwnDisparity) {
   expect_refused(folder_, {"paint", "model.obj", "--depth", "d.png", "-o", "out"}, 2, "on a model of triangles");
 }
 
+TEST_F(ModelCommandTest, IsPaintedAsAFilmInWhichTheCameraMoves) {
+  const std::vector<std::string> words{"rotoscope",    "model.obj", "--picture-size", "96x72",        "--frames", "6",
+                                       "--checkpoint", "2",         "--style",        "impressionist"};
+  const auto painted = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), words.begin(), words.end());
+    return run(more);
+  };
+  const nlohmann::json facts = painted({"-o", "frame_%02d.png", "--orbit", "30"});
+  EXPECT_EQ(facts["frames"], 6);
+  EXPECT_EQ(facts["scenes"], 1);
+  EXPECT_GT(facts["survival"], 0.8);
+  const Image<Rgb8> first = read_image(folder_ / "frame_01.png");
+  EXPECT_EQ(first.width(), 192);
+  EXPECT_NE(read_image(folder_ / "frame_06.png"), first);
+  put_bytes(folder_ / "path.toml", "[[key]]\nat = 0\nazimuth = 90\n[[key]]\nat = 1\nazimuth = 95\n");
+  painted({"-o", "other_%02d.png", "--orbit", "0", "--camera", "path.toml"});
+  EXPECT_NE(read_image(folder_ / "other_01.png"), first);
+  painted({"-o", "quilt_%02d.png", "--display", "looking-glass-portrait", "--size", "48x64"});
+}
+
+TEST_F(ModelCommandTest, AFilmOfItRefusesWhatBelongsToFilms) {
+  const auto refused = [&](const std::vector<std::string>& more, const std::string& part) {
+    std::vector<std::string> words{"rotoscope", "model.obj", "-o", "out.mp4"};
+    words.insert(words.end(), more.begin(), more.end());
+    expect_refused(folder_, words, 2, part);
+  };
+  refused({"--matcher", "sgbm"}, "--matcher: has no effect on a model of triangles");
+  refused({"--flow", "farneback"}, "--flow: has no effect on a model of triangles");
+  refused({"--from", "1"}, "--from: has no effect on a model of triangles; it works on films");
+  refused({"--preview", "s.png"}, "--preview: has no effect on a model of triangles");
+  refused({"--depth", "d.mp4"}, "--depth: has no effect on a model of triangles");
+  expect_refused(folder_, {"rotoscope", "film.mp4", "--orbit", "90"}, 2,
+                 "--orbit: has no effect on a film; it works on models");
+  put_bytes(folder_ / "cut.glb", "glTF");
+  expect_refused(folder_, {"rotoscope", "cut.glb", "-o", "out.mp4"}, 3, "cut.glb");
+}
+
 TEST_F(ModelCommandTest, WhatDoesNotApplyIsRefused) {
   const auto refused = [&](std::vector<std::string> words, int code, const std::string& part) {
     words.insert(words.begin(), {"render"});

@@ -7,11 +7,8 @@
 #include "wheatstone/app/particle_frames.h"
 #include "wheatstone/app/render_film.h"
 #include "wheatstone/app/render_particles.h"
-#include "wheatstone/depth/view_position.h"
 #include "wheatstone/models/read_model.h"
 #include "wheatstone/multiview/render_model.h"
-#include "wheatstone/stereo/stereo_pair.h"
-#include "wheatstone/stereo/view.h"
 
 namespace wheatstone {
 
@@ -45,18 +42,5 @@ struct ModelFrames {
 };
 ModelFrames frames_of_model(const std::filesystem::path& file, ParticleFramesOptions options,
                             const Progress& progress = {});
-
-/// The input of a painting of a model: the pictures of two eyes, their exact disparities, and views that show the parts
-/// hidden from the left eye, as plan_painting takes them. Behind the model is a wall at the depth mapping's far end.
-struct ModelPictures {
-  StereoPair pictures;
-  Image<float> left_disparity, right_disparity;
-  std::vector<View> known;
-};
-
-/// Renders a model for a painting that is to be seen from all `wanted` views. Of the options, those of the views'
-/// number and place have no effect. Throws as render_ready.
-ModelPictures model_pictures(const ReadyModel& model, const RenderParticlesOptions& options, ViewRange wanted,
-                             const Progress& progress = {});
 
 }  // namespace wheatstone

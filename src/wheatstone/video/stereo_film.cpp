@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -28,12 +29,24 @@ GuessedLayout guess_of(const std::filesystem::path& path, const FilmReaderOption
 }  // namespace
 
 struct StereoFilmReader::Implementation {
-  Implementation(FilmReader of_left, const std::filesystem::path& path, GuessedLayout found)
-      : left(std::move(of_left)), layout(std::move(found)), left_path(path) {}
+  explicit Implementation(GuessedLayout found) : layout(std::move(found)) {}
+  virtual ~Implementation() = default;
+
+  GuessedLayout layout;
+
+  virtual const FilmFacts& facts() const = 0;
+  virtual bool read(StereoFrame& eyes) = 0;
+  virtual std::int64_t skip(std::int64_t frames) = 0;
+  virtual void skip_rest() = 0;
+  virtual std::optional<std::string> loss() const = 0;
+};
+
+struct StereoFilmReader::Recorded : Implementation {
+  Recorded(FilmReader of_left, const std::filesystem::path& path, GuessedLayout found)
+      : Implementation(std::move(found)), left(std::move(of_left)), left_path(path) {}
 
   FilmReader left;
   std::optional<FilmReader> right;
-  GuessedLayout layout;
   std::filesystem::path left_path;
   std::filesystem::path right_path;
   std::int64_t delivered = 0;
@@ -77,7 +90,9 @@ struct StereoFilmReader::Implementation {
     return false;
   }
 
-  bool read(StereoFrame& eyes) {
+  const FilmFacts& facts() const override { return left.facts(); }
+
+  bool read(StereoFrame& eyes) override {
     if (right || is_alternating()) {
       if (!(right ? read_both() : read_pair())) return false;
       std::swap(eyes.left, frame.picture);
@@ -99,6 +114,69 @@ struct StereoFilmReader::Implementation {
     ++delivered;
     return true;
   }
+
+  std::int64_t skip(std::int64_t frames) override {
+    std::int64_t skipped = 0;
+    if (is_alternating()) {
+      while (skipped < frames && read_pair()) ++skipped;
+    } else {
+      skipped = left.skip(frames);
+    }
+    if (right) {
+      const std::int64_t of_right = right->skip(skipped);
+      delivered += of_right;
+      if (of_right < skipped) {
+        throw Error(ErrorKind::bad_input, fmt::format("{}: {} frames, expected {} or more like {}", right_path.string(),
+                                                      delivered, delivered - of_right + skipped, left_path.string()));
+      }
+      return skipped;
+    }
+    delivered += skipped;
+    return skipped;
+  }
+
+  void skip_rest() override {
+    left.skip_rest();
+    if (right) right->skip_rest();
+  }
+
+  std::optional<std::string> loss() const override {
+    const std::optional<std::string> of_left = left.loss();
+    const std::optional<std::string> of_right = right ? right->loss() : std::nullopt;
+    if (of_left && of_right) return *of_left + "; " + *of_right;
+    return of_left ? of_left : of_right;
+  }
+};
+
+struct StereoFilmReader::Made : Implementation {
+  Made(FilmFacts known, MakePair make)
+      : Implementation({StereoLayout::left_right, "made for two eyes"}),
+        known_(std::move(known)),
+        make_(std::move(make)) {}
+
+  const FilmFacts& facts() const override { return known_; }
+
+  bool read(StereoFrame& eyes) override {
+    if (next_ == *known_.frame_count) return false;
+    StereoPair pair = make_(next_);
+    eyes = {std::move(pair.left), std::move(pair.right), next_, known_.time_base, 1};
+    ++next_;
+    return true;
+  }
+
+  std::int64_t skip(std::int64_t frames) override {
+    const std::int64_t skipped = std::min(frames, *known_.frame_count - next_);
+    next_ += skipped;
+    return skipped;
+  }
+
+  void skip_rest() override { next_ = *known_.frame_count; }
+  std::optional<std::string> loss() const override { return {}; }
+
+ private:
+  FilmFacts known_;
+  MakePair make_;
+  std::int64_t next_ = 0;
 };
 
 StereoFilmReader::StereoFilmReader(std::unique_ptr<Implementation> implementation)
@@ -107,44 +185,13 @@ StereoFilmReader::StereoFilmReader(StereoFilmReader&&) noexcept = default;
 StereoFilmReader& StereoFilmReader::operator=(StereoFilmReader&&) noexcept = default;
 StereoFilmReader::~StereoFilmReader() = default;
 
-const FilmFacts& StereoFilmReader::facts() const { return implementation_->left.facts(); }
+const FilmFacts& StereoFilmReader::facts() const { return implementation_->facts(); }
 StereoLayout StereoFilmReader::layout() const { return implementation_->layout.layout; }
 const std::string& StereoFilmReader::layout_how() const { return implementation_->layout.how; }
 bool StereoFilmReader::read(StereoFrame& frame) { return implementation_->read(frame); }
-
-std::int64_t StereoFilmReader::skip(std::int64_t frames) {
-  Implementation& own = *implementation_;
-  std::int64_t skipped = 0;
-  if (own.is_alternating()) {
-    while (skipped < frames && own.read_pair()) ++skipped;
-  } else {
-    skipped = own.left.skip(frames);
-  }
-  if (own.right) {
-    const std::int64_t of_right = own.right->skip(skipped);
-    own.delivered += of_right;
-    if (of_right < skipped) {
-      throw Error(ErrorKind::bad_input,
-                  fmt::format("{}: {} frames, expected {} or more like {}", own.right_path.string(), own.delivered,
-                              own.delivered - of_right + skipped, own.left_path.string()));
-    }
-    return skipped;
-  }
-  own.delivered += skipped;
-  return skipped;
-}
-
-void StereoFilmReader::skip_rest() {
-  implementation_->left.skip_rest();
-  if (implementation_->right) implementation_->right->skip_rest();
-}
-
-std::optional<std::string> StereoFilmReader::loss() const {
-  const std::optional<std::string> left = implementation_->left.loss();
-  const std::optional<std::string> right = implementation_->right ? implementation_->right->loss() : std::nullopt;
-  if (left && right) return *left + "; " + *right;
-  return left ? left : right;
-}
+std::int64_t StereoFilmReader::skip(std::int64_t frames) { return implementation_->skip(frames); }
+void StereoFilmReader::skip_rest() { implementation_->skip_rest(); }
+std::optional<std::string> StereoFilmReader::loss() const { return implementation_->loss(); }
 
 StereoFilmReader open_stereo_film(const std::filesystem::path& packed, std::optional<StereoLayout> layout,
                                   const FilmReaderOptions& options) {
@@ -157,7 +204,7 @@ StereoFilmReader open_stereo_film(const std::filesystem::path& packed, std::opti
   } else {
     found = guess_of(packed, options);
   }
-  auto both = std::make_unique<StereoFilmReader::Implementation>(std::move(reader), packed, std::move(found));
+  auto both = std::make_unique<StereoFilmReader::Recorded>(std::move(reader), packed, std::move(found));
   if (both->is_alternating()) {
     both->options = options;
     both->left = open_film(packed, {.threads = options.threads, .sequence_rate = options.sequence_rate});
@@ -178,11 +225,19 @@ StereoFilmReader open_eye_films(const std::filesystem::path& left, const std::fi
     throw Error(ErrorKind::bad_input, fmt::format("{}: {} frames, expected {} like {}", right.string(), *b.frame_count,
                                                   *a.frame_count, left.string()));
   }
-  auto both = std::make_unique<StereoFilmReader::Implementation>(std::move(left_reader), left,
-                                                                 GuessedLayout{StereoLayout::mono, "a film an eye"});
+  auto both = std::make_unique<StereoFilmReader::Recorded>(std::move(left_reader), left,
+                                                           GuessedLayout{StereoLayout::mono, "a film an eye"});
   both->right = std::move(right_reader);
   both->right_path = right;
   return StereoFilmReader(std::move(both));
+}
+
+StereoFilmReader made_film(PictureSize size, std::int64_t frames, Rational rate, MakePair make) {
+  FilmFacts facts{.container = "made", .width = size.width, .height = size.height, .frame_rate = rate};
+  facts.time_base = {rate.denominator, rate.numerator};
+  facts.frame_count = frames;
+  facts.duration_s = static_cast<double>(frames) / rate.value();
+  return StereoFilmReader(std::make_unique<StereoFilmReader::Made>(std::move(facts), std::move(make)));
 }
 
 }  // namespace wheatstone

@@ -2,16 +2,22 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 
+#include "wheatstone/stereo/picture_sizes.h"
 #include "wheatstone/stereo/stereo_layout.h"
+#include "wheatstone/stereo/stereo_pair.h"
 #include "wheatstone/video/film_reader.h"
 
 namespace wheatstone {
 
-/// Delivers the eyes of a film, frame by frame: of one film in any layout, or of a film an eye.
+/// Makes the eyes' pictures of a frame, counted from 0. All have one size.
+using MakePair = std::function<StereoPair(std::int64_t frame)>;
+
+/// Delivers the eyes of a film, frame by frame: of one film in any layout, of a film an eye, or made one by one.
 class StereoFilmReader {
  public:
   StereoFilmReader(StereoFilmReader&&) noexcept;
@@ -38,11 +44,14 @@ class StereoFilmReader {
 
  private:
   struct Implementation;
+  struct Recorded;
+  struct Made;
   explicit StereoFilmReader(std::unique_ptr<Implementation> implementation);
   friend StereoFilmReader open_stereo_film(const std::filesystem::path&, std::optional<StereoLayout>,
                                            const FilmReaderOptions&);
   friend StereoFilmReader open_eye_films(const std::filesystem::path&, const std::filesystem::path&,
                                          const FilmReaderOptions&);
+  friend StereoFilmReader made_film(PictureSize, std::int64_t, Rational, MakePair);
   std::unique_ptr<Implementation> implementation_;
 };
 
@@ -55,5 +64,8 @@ StereoFilmReader open_stereo_film(const std::filesystem::path& packed, std::opti
 /// or, as far as the films say, in their number of frames. Times are the left eye's.
 StereoFilmReader open_eye_films(const std::filesystem::path& left, const std::filesystem::path& right,
                                 const FilmReaderOptions& options = {});
+
+/// A film of so many frames at an even rate, each made when it is read. Reading throws as `make`.
+StereoFilmReader made_film(PictureSize size, std::int64_t frames, Rational rate, MakePair make);
 
 }  // namespace wheatstone
