@@ -53,7 +53,7 @@ Report report_of(const MeasuredPainting& measured) {
 }
 
 Report run_measure_painting(const MeasurePaintingArguments& arguments, const Session& /*session*/) {
-  const Image<Rgb8> photograph = read_image(arguments.photograph), painting = read_image(arguments.painting);
+  const auto [photograph, painting] = read_two_images(arguments.photograph, arguments.painting);
   MeasuredPainting measured;
   try {
     measured.likeness = measure_likeness(photograph, painting);

@@ -97,8 +97,7 @@ Report run_measure_views(const MeasureViewsArguments& arguments, const Session& 
   std::vector<MeasuredView> measured;
   for (std::size_t i = 0; i < views.size(); ++i) {
     report(session.progress, "views", static_cast<double>(i) / static_cast<double>(views.size()));
-    const Image<Rgb8> view = read_image(views[i]);
-    const Image<Rgb8> reference = read_image(against[i]);
+    const auto [view, reference] = read_two_images(views[i], against[i]);
     if (!same_size(view, reference))
       throw Error(ErrorKind::bad_input,
                   fmt::format("{}: is {}x{} pixels, expected {}x{} as {}", views[i].string(), view.width(),

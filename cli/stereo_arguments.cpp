@@ -82,7 +82,8 @@ PictureSize reduce(StereoPair& pair, int longest_px) {
 NamedPair read_two_files(const StereoArguments& arguments) {
   if (!arguments.layout.empty())
     throw Error(ErrorKind::wrong_usage, "--layout is for one file that holds both views, but two files are given");
-  StereoPair pair{read_image(arguments.left), read_image(arguments.right)};
+  auto [of_left, of_right] = read_two_images(arguments.left, arguments.right);
+  StereoPair pair{std::move(of_left), std::move(of_right)};
   std::string framed;
   const PictureSize left{pair.left.width(), pair.left.height()}, right{pair.right.width(), pair.right.height()};
   if (differ_by_few(left, right)) {
@@ -138,7 +139,8 @@ Image<float> read_disparity_argument(const std::string& argument) {
 }
 
 StereoPair read_pair(const std::string& left, const std::string& right) {
-  StereoPair pair{read_image(left), read_image(right)};
+  auto [of_left, of_right] = read_two_images(left, right);
+  StereoPair pair{std::move(of_left), std::move(of_right)};
   check_sizes(pair, left, right);
   return pair;
 }

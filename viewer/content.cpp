@@ -175,9 +175,11 @@ Opened open_without_depth(std::span<const fs::path> files, const Listeners& list
   if (std::optional<OpenedFilm> slices = open_slices_to_play(path)) return opened_slice_film(*std::move(slices));
   if (names_film(path))
     return open_film_files(files.size() == 2 ? FilmFiles{path, files[1], {}} : find_film(path.string()));
-  if (files.size() == 2)
-    return opened_photograph({read_image(path), read_image(files[1])},
+  if (files.size() == 2) {
+    auto [of_left, of_right] = read_two_images(path, files[1]);
+    return opened_photograph({std::move(of_left), std::move(of_right)},
                              fmt::format("{}, {}", path.string(), files[1].string()), listeners);
+  }
   if (path.extension() == ".wst")
     return {PaintedContent{std::make_shared<const Painting>(read_painting(path)), nullptr}, "painting", {}};
   if (path.extension() == ".exr") {
@@ -262,7 +264,8 @@ bool are_eyes_of_one(const fs::path& left, const fs::path& right, const ShowFirs
         quilt_of_name(path->filename().string()))
       return false;
   try {
-    const StereoPair pair{read_image(left), read_image(right)};
+    auto [of_left, of_right] = read_two_images(left, right);
+    const StereoPair pair{std::move(of_left), std::move(of_right)};
     show_as_it_came(pair, show);
     return same_size(pair.left, pair.right) && !find_views(left) && !find_views(right) && !not_a_pair(pair);
   } catch (const Error&) {

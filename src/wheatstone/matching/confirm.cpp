@@ -1,11 +1,13 @@
 #include "wheatstone/matching/confirm_internal.h"
 
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <opencv2/imgproc.hpp>
+#include <utility>
 #include <vector>
 
 #include "wheatstone/image/mat_opencv.h"
@@ -13,7 +15,6 @@
 #include "wheatstone/stereo/geometry_from_disparity.h"
 
 namespace wheatstone {
-namespace {}
 
 Image<float> confirmed_disparity(const Image<float>& own, const Image<float>& other, float sign, float tolerance_px) {
   Image<float> result(own.width(), own.height(), unknown);
@@ -51,28 +52,39 @@ cv::Mat in_sixteenths(const Image<float>& disparity, float sign) {
 
 namespace {
 
+/// Stands for pixels whose disparity is unknown, or that are in a patch already.
+constexpr int no_disparity = std::numeric_limits<int>::min();
+
+/// The disparities in sixteenths, so that patches do not depend on the last bits of them.
+Image<int> whole_sixteenths(const Image<float>& disparity) {
+  Image<int> sixteenths(disparity.width(), disparity.height());
+  tbb::parallel_for(0, disparity.height(), [&](int y) {
+    std::ranges::transform(disparity.row(y), sixteenths.row(y).begin(), [](float d) {
+      return std::isfinite(d) ? static_cast<int>(std::lround(d * sixteenths_a_px)) : no_disparity;
+    });
+  });
+  return sixteenths;
+}
+
 /// The pixels, as indices into the rows one after the other, that are connected with `first` by steps to neighbours of
-/// like disparity. None of them is in `seen` before, all are afterwards.
-void find_patch(const Image<float>& disparity, std::size_t first, std::vector<bool>& seen,
-                std::vector<std::size_t>& patch) {
-  constexpr long same_surface = 2L * sixteenths_a_px;
-  const auto width = static_cast<std::size_t>(disparity.width());
-  const std::span<const float> values = disparity.pixels();
-  // Sixteenths, so that patches do not depend on the last bits of a disparity.
-  const auto sixteenths = [&](std::size_t at) { return std::lround(values[at] * sixteenths_a_px); };
-  const auto step_to = [&](std::size_t from, std::size_t at) {
-    if (seen[at] || !std::isfinite(values[at]) || std::abs(sixteenths(at) - sixteenths(from)) > same_surface) return;
-    seen[at] = true;
-    patch.push_back(at);
+/// like disparity. They are taken out of `sixteenths`.
+void take_patch(Image<int>& sixteenths, std::size_t first, std::vector<std::pair<std::size_t, int>>& patch) {
+  constexpr int same_surface = 2 * sixteenths_a_px;
+  const auto width = static_cast<std::size_t>(sixteenths.width());
+  const std::span<int> values = sixteenths.pixels();
+  const auto take = [&](std::size_t at) { patch.emplace_back(at, std::exchange(values[at], no_disparity)); };
+  const auto step_to = [&](int from, std::size_t at) {
+    if (values[at] != no_disparity && std::abs(values[at] - from) <= same_surface) take(at);
   };
-  patch.assign(1, first);
-  seen[first] = true;
+  patch.clear();
+  take(first);
   for (std::size_t next = 0; next < patch.size();) {  // the patch grows
-    const std::size_t at = patch[next++], x = at % width;
-    if (x > 0) step_to(at, at - 1);
-    if (x + 1 < width) step_to(at, at + 1);
-    if (at >= width) step_to(at, at - width);
-    if (at + width < values.size()) step_to(at, at + width);
+    const auto [at, from] = patch[next++];
+    const std::size_t x = at % width;
+    if (x > 0) step_to(from, at - 1);
+    if (x + 1 < width) step_to(from, at + 1);
+    if (at >= width) step_to(from, at - width);
+    if (at + width < values.size()) step_to(from, at + width);
   }
 }
 
@@ -81,13 +93,13 @@ void find_patch(const Image<float>& disparity, std::size_t first, std::vector<bo
 // OpenCV's filterSpeckles keeps places as 16-bit numbers: it writes beyond its memory where a side is longer.
 void remove_speckles(Image<float>& disparity, int least_surface_px) {
   const std::span<float> values = disparity.pixels();
-  std::vector<bool> seen(values.size());
-  std::vector<std::size_t> patch;
+  Image<int> sixteenths = whole_sixteenths(disparity);
+  std::vector<std::pair<std::size_t, int>> patch;
   for (std::size_t first = 0; first < values.size(); ++first) {
-    if (seen[first] || !std::isfinite(values[first])) continue;
-    find_patch(disparity, first, seen, patch);
+    if (sixteenths.pixels()[first] == no_disparity) continue;
+    take_patch(sixteenths, first, patch);
     if (patch.size() > static_cast<std::size_t>(least_surface_px)) continue;
-    for (const std::size_t at : patch) values[at] = unknown;
+    for (const auto& [at, disparity_there] : patch) values[at] = unknown;
   }
 }
 
@@ -97,8 +109,8 @@ void remove_speckles_but_holes(Image<float>& disparity, int least_surface_px) {
   constexpr int least_hole_px = 40, nearby_share = 8;  // of the width
   constexpr float step_px = 1;
   Image<float> holes = disparity;
-  remove_speckles(holes, std::min(least_hole_px, least_surface_px));
-  remove_speckles(disparity, least_surface_px);
+  tbb::parallel_invoke([&] { remove_speckles(holes, std::min(least_hole_px, least_surface_px)); },
+                       [&] { remove_speckles(disparity, least_surface_px); });
   if (known_share(disparity) == 0) return;
   Image<float> beside = disparity, farthest = disparity;
   fill_from_farther_side(beside);

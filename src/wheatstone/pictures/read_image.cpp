@@ -1,9 +1,12 @@
 #include "wheatstone/pictures/read_image.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <exception>
 #include <memory>
 #include <span>
 #include <string>
@@ -122,6 +125,22 @@ std::vector<Image<Rgb8>> read_png_frames(std::string_view bytes, const fs::path&
 }  // namespace
 
 Image<Rgb8> read_image(const fs::path& path) { return read_opened(path, open_picture(path)); }
+
+std::array<Image<Rgb8>, 2> read_two_images(const fs::path& first, const fs::path& second) {
+  const std::array paths{&first, &second};
+  std::array<Image<Rgb8>, 2> pictures;
+  std::array<std::exception_ptr, 2> thrown;
+  tbb::parallel_for(std::size_t{0}, paths.size(), [&](std::size_t i) {
+    try {
+      pictures[i] = read_image(*paths[i]);
+    } catch (...) {
+      thrown[i] = std::current_exception();
+    }
+  });
+  for (const std::exception_ptr& error : thrown)
+    if (error) std::rethrow_exception(error);
+  return pictures;
+}
 
 bool may_be_animated(std::string_view bytes) {
   if (bytes.starts_with("GIF8") || is_animated_png(bytes)) return true;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -14,6 +15,9 @@ namespace wheatstone {
 /// that is damaged or does not fit the picture is left aside, as viewers do.
 /// Throws Error{bad_input} where the file is missing, is no picture, or is truncated.
 Image<Rgb8> read_image(const std::filesystem::path& path);
+
+/// Two pictures, which are read at once. Throws as read_image, for the first of them where both cannot be read.
+std::array<Image<Rgb8>, 2> read_two_images(const std::filesystem::path& first, const std::filesystem::path& second);
 
 /// The same of a JPEG in memory; `path` stands for it in messages.
 Image<Rgb8> decode_jpeg(std::string_view bytes, const std::filesystem::path& path);

@@ -255,4 +255,17 @@ TEST(ReadImage, BelievesNoHeaderOfABmpThatItsLengthBelies) {
                [&] { read_image(folder / "a.bmp"); });
 }
 
+TEST(ReadTwoImages, ReadsBothAndTellsTheErrorOfTheFirst) {
+  const TemporaryFolder folder;
+  write_image(folder / "a.png", ramp(8, 6));
+  write_image(folder / "b.png", ramp(9, 7));
+  const auto [a, b] = read_two_images(folder / "a.png", folder / "b.png");
+  EXPECT_EQ(a, ramp(8, 6));
+  EXPECT_EQ(b, ramp(9, 7));
+  for (int i = 0; i < 20; ++i)
+    expect_error(ErrorKind::bad_input, "first.png",
+                 [&] { read_two_images(folder / "first.png", folder / "second.png"); });
+  expect_error(ErrorKind::bad_input, "second.png", [&] { read_two_images(folder / "a.png", folder / "second.png"); });
+}
+
 }  // namespace wheatstone::read_image_test
