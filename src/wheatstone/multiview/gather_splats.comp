@@ -77,6 +77,16 @@ struct Four {
   vec4 parallax, rank, red, green, blue;
 };
 
+// The twin of light_on_sphere in sphere_light_internal.h.
+float light_on_sphere(vec2 place, float radius) {
+  const float mean = 0.5736, flat_px = 1.5, round_px = 4;
+  const vec3 lamp = vec3(-0.55, -0.7, -0.45) / 0.9975;
+  float roundness = clamp((radius - flat_px) / (round_px - flat_px), 0, 1);
+  float towards = sqrt(max(1 - dot(place, place), 0));
+  float light = 0.13 + 0.25 * towards + 0.72 * max(dot(lamp, vec3(place, -towards)), 0);
+  return 1 + roundness * (light / mean - 1);
+}
+
 // Of two equally near discs, the brighter one is in front, whatever their order.
 void cover(inout Four four, vec4 at, vec4 light, vec4 away, float row_away) {
   float half_width = sqrt(max(at.w * at.w - row_away * row_away, 0));
@@ -86,9 +96,10 @@ void cover(inout Four four, vec4 at, vec4 light, vec4 away, float row_away) {
     if (!hits || !front) continue;
     four.parallax[i] = at.y;
     four.rank[i] = light.a;
-    four.red[i] = light.r;
-    four.green[i] = light.g;
-    four.blue[i] = light.b;
+    float share = light_on_sphere(vec2(away[i], row_away) / at.w, at.w);
+    four.red[i] = light.r * share;
+    four.green[i] = light.g * share;
+    four.blue[i] = light.b * share;
   }
 }
 

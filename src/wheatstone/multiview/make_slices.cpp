@@ -68,8 +68,8 @@ void SliceMaker::State::draw_opaque(const std::vector<SplatBlock>& blocks) {
   for_each_band_of(order(), [&](int b) {
     for (int plane = 0; plane < order().parts; ++plane)
       for (const SplatBlock& block : blocks)
-        draw_discs(block.bin(order().bin(b, plane)), b * order().band_rows, central_view,
-                   opaque[order().bin(b, plane)]);
+        draw_spheres(block.bin(order().bin(b, plane)), b * order().band_rows, central_view,
+                     opaque[order().bin(b, plane)]);
   });
 }
 

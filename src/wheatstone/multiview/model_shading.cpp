@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "wheatstone/multiview/sphere_light_internal.h"
+
 namespace wheatstone {
 namespace {
 
@@ -15,9 +17,6 @@ Direction of_length_1(const Direction& v) {
   return length > 0 ? Direction{v[0] / length, v[1] / length, v[2] / length} : Direction{0, 0, 1};
 }
 
-// Light on a surface that faces its light source. The sum is 1, except where the lamp shines along the line of sight
-// and adds to it.
-constexpr float light_all_around = 0.13f, light_of_camera = 0.25f, light_of_lamp = 0.72f;
 constexpr float highlight_exponent = 32;
 
 }  // namespace
@@ -26,7 +25,7 @@ ModelShading::ModelShading(const Model& model, const ModelScene& scene)
     : model_(model), scene_(scene), is_orthographic_(scene.camera.orthographic_depth > 0) {
   textures_.reserve(model.textures.size());
   for (const Image<Rgb8>& texture : model.textures) textures_.emplace_back(texture);
-  constexpr Direction lamp{-0.55f, -0.7f, -0.45f};  // right, down, forward
+  const Direction& lamp = direction_to_lamp;
   for (std::size_t axis = 0; axis < 3; ++axis)
     lamp_[axis] =
         lamp[0] * scene.camera.right[axis] + lamp[1] * scene.camera.down[axis] + lamp[2] * scene.camera.forward[axis];

@@ -6,6 +6,7 @@
 #include "wheatstone/multiview/deal_out_internal.h"
 #include "wheatstone/multiview/gathered_light_internal.h"
 #include "wheatstone/multiview/renderers_internal.h"
+#include "wheatstone/multiview/sphere_light_internal.h"
 #include "wheatstone/multiview/splat_internal.h"
 
 namespace wheatstone {
@@ -26,7 +27,7 @@ void tone_map_rows(const OpaqueBand& band, const ToneMap& tone, int top, ImageVi
 
 }  // namespace
 
-void draw_discs(std::span<const Splat> splats, int top, ViewPosition view, OpaqueBand& band) {
+void draw_spheres(std::span<const Splat> splats, int top, ViewPosition view, OpaqueBand& band) {
   const int width = band.light.width();
   for (const Splat& splat : splats) {
     // At least a pixel's width, so that some centre is met.
@@ -44,7 +45,8 @@ void draw_discs(std::span<const Splat> splats, int top, ViewPosition view, Opaqu
       for (int column = first; column < end; ++column) {
         if (splat.parallax >= band.parallax(column, row)) continue;
         band.parallax(column, row) = splat.parallax;
-        band.light(column, row) = light;
+        const float share = light_on_sphere((static_cast<float>(column) - x) / radius, off / radius, radius);
+        band.light(column, row) = {light.r * share, light.g * share, light.b * share, light.a};
       }
     }
   }
@@ -64,7 +66,7 @@ void render_opaque(const RenderJob& job, std::span<const ViewPosition> views,
                        for (std::size_t v = 0; v < views.size(); ++v)
                          for (int part = 0; part < order.parts; ++part)
                            for (const SplatBlock& block : blocks)
-                             draw_discs(block.bin(order.bin(b, part)), b * order.band_rows, views[v], bands[b][v]);
+                             draw_spheres(block.bin(order.bin(b, part)), b * order.band_rows, views[v], bands[b][v]);
                      });
                    });
   for_each_band_of(order, [&](int b) {

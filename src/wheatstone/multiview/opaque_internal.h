@@ -21,8 +21,8 @@ struct OpaqueBand {
   Image<LinearRgba> light;
 };
 
-/// Draws discs, moved for the view at `view`, where they are nearer than what was drawn before. Of two equally near
-/// discs, the first stays.
-void draw_discs(std::span<const Splat> splats, int top, ViewPosition view, OpaqueBand& band);
+/// Draws splats of light as lit spheres (light_on_sphere), moved for the view at `view`, where they are nearer than
+/// what was drawn before: all of a sphere lies at the depth of its middle. Of two equally near ones, the first stays.
+void draw_spheres(std::span<const Splat> splats, int top, ViewPosition view, OpaqueBand& band);
 
 }  // namespace wheatstone

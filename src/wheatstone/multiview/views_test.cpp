@@ -14,8 +14,10 @@
 #include "wheatstone/multiview/cost_model_internal.h"
 #include "wheatstone/multiview/make_slices.h"
 #include "wheatstone/multiview/naive_view.h"
+#include "wheatstone/multiview/opaque_internal.h"
 #include "wheatstone/multiview/render.h"
 #include "wheatstone/multiview/render_slices.h"
+#include "wheatstone/multiview/sphere_light_internal.h"
 #include "wheatstone/random.h"
 
 namespace wheatstone::views_test {
@@ -203,6 +205,29 @@ TEST(Opaque, NearestParticleHidesTheOthers) {
     EXPECT_GT(middle.g, 60);
     EXPECT_EQ(middle.r, 0);
   }
+}
+
+TEST(Opaque, LightOnASphereIsAsMuchAsOnADisc) {
+  double sum = 0;
+  int count = 0;
+  for (float down = -1; down <= 1; down += 0.01f)
+    for (float right = -1; right <= 1; right += 0.01f)
+      if (right * right + down * down < 1) ++count, sum += light_on_sphere(right, down, 10);
+  EXPECT_NEAR(sum / count, 1, 0.005);
+  EXPECT_GT(light_on_sphere(-0.4f, -0.5f, 10), 1.5f);
+  EXPECT_LT(light_on_sphere(0.5f, 0.6f, 10), 0.7f);
+  EXPECT_EQ(light_on_sphere(0.5f, 0.6f, 1), 1);
+}
+
+TEST(Opaque, LargeParticlesAreLitFromTheUpperLeft) {
+  constexpr std::uint16_t half_of_1 = 0x3c00, half_of_16 = 0x4c00;
+  const Splat large{.x = 16, .y = 16, .parallax = 4, .colour = {half_of_1, 0, 0}, .size = half_of_16};
+  OpaqueBand band(0, 32, 32);
+  draw_spheres({&large, 1}, 0, right_eye, band);  // moved by 2 pixels
+  EXPECT_GT(band.light(15, 12).r, 1.3f);
+  EXPECT_LT(band.light(21, 20).r, 0.8f);
+  EXPECT_EQ(band.light(18, 16).g, 0);
+  EXPECT_EQ(band.light(18, 28).a, 0);
 }
 
 TEST(Opaque, WaysOfRenderingAgree) {
