@@ -74,25 +74,6 @@ Value selected_region(Cut& cut) {
   });
 }
 
-/// "gas=FFB347:6,stars=FFFFFF".
-std::vector<TypeColour> parse_type_colours(const std::string& option, const std::string& words) {
-  std::vector<TypeColour> types;
-  std::string_view rest = words;
-  while (true) {
-    const std::string_view one = rest.substr(0, rest.find(','));
-    const std::size_t sign = one.find('='), colon = std::min(one.find(':', sign), one.size());
-    if (sign == std::string_view::npos || sign == 0)
-      throw Error(ErrorKind::wrong_usage,
-                  fmt::format("{}: is '{}', expected TYPE=COLOUR,... as gas=FFB347:6,stars=FFFFFF", option, words));
-    TypeColour& type = types.emplace_back();
-    type.type = one.substr(0, sign);
-    type.colour = parse_colour(option, one.substr(0, colon).substr(sign + 1));
-    if (colon < one.size()) type.light = static_cast<float>(parse_number(option, one.substr(colon + 1), {1e-3, 1e6}));
-    if (one.size() == rest.size()) return types;
-    rest.remove_prefix(one.size() + 1);
-  }
-}
-
 Value point(std::optional<std::array<double, 3>>& place) {
   return parsed(place, [](const std::string& option, const std::string& words) {
     const auto n = parse_numbers(option, words, {',', 3, coordinate_range, "X,Y,Z"});
@@ -189,7 +170,11 @@ Rows particle_rows(RenderArguments& a) {
       "Particles",
       {row("--type", text(choice.type),
            "Particle type of a GADGET snapshot: gas, halo, disk, bulge, stars, bndry or 0 to 5; gas by default"),
-       row("--type-colours", parsed(choice.type_colours, parse_type_colours, "TYPE=COLOUR,..."),
+       row("--type-colours",
+           parsed(
+               choice.type_colours,
+               [](const std::string& option, const std::string& words) { return parse_type_colours(words, option); },
+               "TYPE=COLOUR,..."),
            "Draw several types of a GADGET snapshot, each in a colour of its own: gas=FFB347:6,halo=3B5BDB; a number "
            "multiplies the light that a type's mass gives",
            {when([&a] { return !a.options.quantity.empty(); },

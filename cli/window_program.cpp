@@ -57,6 +57,7 @@ Rows view_rows(ViewArguments& a) {
       row("--camera", text(a.camera), "Camera path to play, as in 'wheatstone render'"),
       row("--quantity", text(a.quantity),
           "Quantity of particles that is shown, as in 'wheatstone render': column-density, mean:temperature"),
+      row("--where", text(a.where), "Condition for the particles that are shown, as in 'wheatstone render'"),
       row("--focus", text(a.focus),
           "Point X,Y of particles or slices around which there is more depth: shares of a view's width and height"),
       row("--focus-radius", number(a.focus_radius, {-no_bound, no_bound}),

@@ -36,7 +36,7 @@ double screen_width_mm(const StudyRunArguments& arguments, int width_px);
 struct ViewArguments {
   Given given;
   std::vector<std::string> files;
-  std::string mode, style, display, camera, quantity, focus, script, control, bridge_calibration;
+  std::string mode, style, display, camera, quantity, where, focus, script, control, bridge_calibration;
   std::string size = "960x640";
   std::optional<float> focus_radius, focus_gain;
   int threads = 0;         ///< as of every command; 0: as many as the machine has

@@ -163,7 +163,7 @@ std::string focus_options(const ScreenFocus& focus) {
 /// The options of `render` that show mass, or a quantity.
 std::string mass_options(const ParticleLook& look) {
   std::string text;
-  if (!look.quantity.empty()) text += fmt::format(" --quantity {}", shell_word(look.quantity));
+  if (!look.choice.quantity.empty()) text += fmt::format(" --quantity {}", shell_word(look.choice.quantity));
   if (look.stretch == Stretch::log) text += " --stretch log";
   if (look.stretch == Stretch::linear) text += " --stretch linear";
   if (look.least) text += fmt::format(" --least={}", *look.least);
@@ -176,6 +176,8 @@ std::string look_options(const ViewState& state) {
   const ParticleLook& look = state.look;
   const ParticleLook usual;
   std::string text;
+  if (!look.choice.where.empty()) text += " --where " + shell_word(look.choice.where);
+  if (!look.choice.type_colours.empty()) text += " --type-colours " + shell_word(look.choice.type_colours);
   if (drawn_look(look) == Look::thesis) {
     text += " --look thesis";
     if (look.exposure) text += fmt::format(" --exposure {}", *look.exposure);
@@ -184,7 +186,7 @@ std::string look_options(const ViewState& state) {
   } else {
     text += mass_options(look);
   }
-  const bool has_hues = drawn_look(look) == Look::thesis || look.quantity.empty();
+  const bool has_hues = drawn_look(look) == Look::thesis || look.choice.quantity.empty();
   if (look.coldest && has_hues) text += fmt::format(" --coldest {}", *look.coldest);
   if (look.hottest && has_hues) text += fmt::format(" --hottest {}", *look.hottest);
   if (!look.colours.empty()) text += fmt::format(" --colours {}", look.colours);

@@ -43,6 +43,7 @@ struct Entry {
   std::string_view icon = {};                ///< in the toolbar; empty: it is not there
   bool begins_group = false;                 ///< a line is drawn above it
   bool is_for_scripts = false;               ///< another entry does the same for people
+  bool is_text = false;                      ///< a panel has a line to type it in
 };
 
 /// One line of the table of commands, from which the menus, the keys, the help and scripts are made.

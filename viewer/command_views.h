@@ -31,7 +31,9 @@ inline std::string run_told(const TemporaryFolder& folder, Words words) {
 
 /// Both eyes as the command that a viewer tells makes them.
 inline std::array<Image<Rgb8>, 2> views_of_told(const Viewer& viewer, const TemporaryFolder& folder) {
-  run_told(folder, words_of(command_line_of(viewer.session())));
+  std::string told = command_line_of(viewer.session());
+  std::ranges::replace(told, '\'', '"');  // as a shell quotes, and as a script does
+  run_told(folder, words_of(told));
   return {read_image(folder / "views/view_000.png"), read_image(folder / "views/view_001.png")};
 }
 

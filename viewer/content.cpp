@@ -48,7 +48,7 @@ namespace fs = std::filesystem;
 struct Listeners {
   const Progress& progress;
   const ShowFirst& show;
-  const std::string& quantity;  ///< of particles
+  const ParticleChoice& particles;
 };
 
 void show_as_it_came(const StereoPair& pictures, const ShowFirst& show) {
@@ -155,7 +155,7 @@ Opened open_particles(const fs::path& path, const Listeners& listeners) {
   auto reader = std::make_shared<ParticleReader>(path);
   const bool is_series = !reader->times().empty();
   const double time = is_series ? reader->times().front() : 0;
-  Opened opened{ParticlesContent{reader->read(listeners.quantity, time, listeners.progress)}, "particles", {}};
+  Opened opened{ParticlesContent{reader->read(listeners.particles, time, listeners.progress)}, "particles", {}};
   if (is_series) opened.notes.push_back(fmt::format("a series of {} snapshots", reader->times().size()));
   if (!is_series && series_pattern_of(path))
     opened.notes.emplace_back("'open-series' plays all snapshots of this name");
@@ -250,8 +250,8 @@ std::optional<DepthEnds> depth_of(const Content& content) {
 }
 
 Opened open_content(std::span<const fs::path> files, const Progress& progress, const ShowFirst& show,
-                    const std::string& quantity) {
-  Opened opened = open_without_depth(files, {progress, show, quantity});
+                    const ParticleChoice& particles) {
+  Opened opened = open_without_depth(files, {progress, show, particles});
   opened.depth = depth_of(opened.content);
   return opened;
 }

@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include "view_state.h"
 #include "wheatstone/app/render_model_file.h"
 #include "wheatstone/app/render_particles.h"
 #include "wheatstone/depth/convergence.h"
@@ -55,8 +56,8 @@ struct SlicesContent {
 
 /// Particles, ready to be rendered, and what a picture of them tells.
 struct Particles : ReadyParticles {
-  std::string quantity;  ///< that they were read with: a name, as quantity_name_of has it
-  ShownUnits units;      ///< of that
+  ParticleChoice choice;  ///< that they were read with
+  ShownUnits units;       ///< of its quantity
   std::optional<double> redshift;
   double time = 0;  ///< of a series
 };
@@ -106,10 +107,10 @@ using ShowFirst = std::function<void(Opened)>;
 
 /// Opens what a file holds: a painting (.wst), a stereo photograph of two files or one, one picture with its depth, a
 /// quilt, the views of a multi-view OpenEXR, slices, particles, a model or a film. Two files are the eyes of one
-/// photograph. `show` is given a stereo photograph as it came, before it is rectified. Particles are read to show
-/// `quantity`; those of a pattern, "snap_%03d.hdf5", are a series. Throws Error that names the file.
+/// photograph. `show` is given a stereo photograph as it came, before it is rectified. Of particles, what
+/// `particles` says is read; those of a pattern, "snap_%03d.hdf5", are a series. Throws Error that names the file.
 Opened open_content(std::span<const std::filesystem::path> files, const Progress& progress = {},
-                    const ShowFirst& show = {}, const std::string& quantity = {});
+                    const ShowFirst& show = {}, const ParticleChoice& particles = {});
 
 /// Whether the names of two files differ as those of two eyes: left.png and right.png, tree_L.jpg and tree_R.jpg.
 bool are_named_as_eyes(const std::filesystem::path& left, const std::filesystem::path& right);

@@ -240,9 +240,27 @@ void set_look(Viewer& viewer, const Words& words) {
   forget_brightness(look);
 }
 
+void set_where(Viewer& viewer, const Words& words) {
+  const std::string where = words[0] == "all" ? std::string() : words[0];
+  if (!where.empty()) parse_condition(where);
+  ParticleLook& look = state_of(viewer).look;
+  look.choice.where = where;
+  forget_brightness(look);
+}
+
+void set_type_colours(Viewer& viewer, const Words& words) {
+  const std::string types = words[0] == "off" ? std::string() : words[0];
+  if (!types.empty()) parse_type_colours(types);
+  ParticleLook& look = state_of(viewer).look;
+  look.choice.type_colours = types;
+  look.choice.quantity.clear();
+  forget_brightness(look);
+}
+
 void set_quantity(Viewer& viewer, const Words& words) {
   ParticleLook& look = state_of(viewer).look;
-  look.quantity = words[0] == "picture" ? std::string() : words[0];
+  look.choice.quantity = words[0] == "picture" ? std::string() : words[0];
+  look.choice.type_colours.clear();
   look.look = Look::mass;
   look.opaque = false;
   forget_brightness(look);
@@ -345,9 +363,11 @@ std::vector<Choice> quantity_choices(const Viewer& /*viewer*/) {
   return {{"picture", "Mass, temperature"}, {"column-density", "Column density"}};
 }
 
+/// A text, or what stands for none.
+std::string told_or(const char* none, const std::string& text) { return text.empty() ? none : text; }
+
 std::string quantity_told(const Viewer& viewer) {
-  const std::string& quantity = viewer.session().state.look.quantity;
-  return quantity.empty() ? "picture" : quantity;
+  return told_or("picture", viewer.session().state.look.choice.quantity);
 }
 
 constexpr Command quantity_table[] = {
@@ -369,6 +389,21 @@ constexpr Command quantity_table[] = {
      "",
      set_quantity,
      {.choices = quantity_choices, .now = quantity_told}},
+    {"where",
+     "CONDITION|all",
+     "Particles",
+     "Only where: a condition for particles, as \"Temperature > 1e6 and Density < 1e-3\"",
+     "",
+     set_where,
+     {.now = [](const Viewer& v) { return told_or("all", v.session().state.look.choice.where); }, .is_text = true}},
+    {"type-colours",
+     "TYPES|off",
+     "Particles",
+     "Types in colours: several types of a snapshot, as gas=FFB347:6,halo=3B5BDB",
+     "",
+     set_type_colours,
+     {.now = [](const Viewer& v) { return told_or("off", v.session().state.look.choice.type_colours); },
+      .is_text = true}},
     {"stretch",
      "asinh|log|linear",
      "Particles",

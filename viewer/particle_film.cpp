@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "orbit.h"
+#include "particle_scene.h"
 #include "wheatstone/app/snapshot_series.h"
 #include "wheatstone/error.h"
 #include "wheatstone/video/frame_sequence.h"
@@ -34,25 +35,26 @@ ParticleReader::ParticleReader(std::filesystem::path input) : input_(std::move(i
   time_is_scale_factor_ = source.time && source.redshift && std::abs(*source.time * (1 + *source.redshift) - 1) < 1e-3;
 }
 
-std::shared_ptr<const Particles> ParticleReader::read(const std::string& quantity, double time,
+std::shared_ptr<const Particles> ParticleReader::read(const ParticleChoice& choice, double time,
                                                       const Progress& progress) {
   auto particles = std::make_shared<Particles>();
-  const RenderParticlesOptions options{.quantity = quantity};
+  RenderParticlesOptions options;
+  put_choice(choice, options);
   const CloudSource source = open_cloud(first_, choice_of(options));
   if (times_.empty()) {
     static_cast<ReadyParticles&>(*particles) = read_particles(input_, options, progress);
     particles->redshift = source.redshift;
   } else {
-    if (!frames_ || frames_quantity_ != quantity) {
+    if (!frames_ || frames_choice_ != choice) {
       frames_.reset();
       frames_.emplace(input_.string(), ParticleFramesOptions{.particles = options, .count = 2, .path = {}}, progress);
-      frames_quantity_ = quantity;
+      frames_choice_ = choice;
     }
     static_cast<ReadyParticles&>(*particles) = frames_->particles_at(time, progress);
     particles->time = time;
     if (time_is_scale_factor_) particles->redshift = 1 / time - 1;
   }
-  particles->quantity = quantity_name_of(quantity);
+  particles->choice = choice;
   particles->units = units_of(source, options, particles->statistics.has_mass);
   return particles;
 }

@@ -25,7 +25,7 @@ class ParticleReader {
   /// Columns of the file, each of which can be a quantity.
   const std::vector<std::string>& fields() const { return fields_; }
   /// Throws as read_particles and ParticleFrames.
-  std::shared_ptr<const Particles> read(const std::string& quantity, double time, const Progress& progress = {});
+  std::shared_ptr<const Particles> read(const ParticleChoice& choice, double time, const Progress& progress = {});
 
  private:
   std::filesystem::path input_, first_;
@@ -33,7 +33,7 @@ class ParticleReader {
   std::vector<std::string> fields_;
   bool time_is_scale_factor_ = false;
   std::optional<ParticleFrames> frames_;
-  std::string frames_quantity_;
+  ParticleChoice frames_choice_;
 };
 
 /// The pattern of the numbered files to which this one belongs: "snap_007.hdf5" is of "snap_%03d.hdf5". Nothing where

@@ -54,6 +54,17 @@ Cloud every_nth(const Cloud& cloud, std::size_t every) {
 
 }  // namespace
 
+void put_choice(const ParticleChoice& choice, RenderParticlesOptions& options) {
+  options.quantity = choice.quantity;
+  if (!choice.where.empty()) options.choice.where = parse_condition(choice.where);
+  if (!choice.type_colours.empty()) options.choice.type_colours = parse_type_colours(choice.type_colours);
+}
+
+bool reads_the_same(const ParticleChoice& a, const ParticleChoice& b) {
+  return quantity_name_of(a.quantity) == quantity_name_of(b.quantity) && a.where == b.where &&
+         a.type_colours == b.type_colours;
+}
+
 PerceivedDepth perceived_depth(const ViewState& state) {
   const DisplayPreset& display = find_display(state.display);
   PerceivedDepth depth;
@@ -93,10 +104,11 @@ RenderParticlesOptions render_options(const ViewState& state, const Rig& rig) {
   appearance.opacity = look.opacity;
   options.rendering.opaque = look.opaque;
   options.rendering.focus = focus_in(look.focus, rig.width, rig.height);
+  put_choice(look.choice, options);
   if (appearance.look == Look::thesis) {
+    options.quantity.clear();
     options.rendering.exposure = look.exposure.value_or(unknown);
   } else {
-    options.quantity = look.quantity;
     options.rendering.tone.stretch = look.stretch;
     options.least = look.least.value_or(unknown);
     options.most = look.most.value_or(unknown);
@@ -167,8 +179,12 @@ DrawnParticles ParticleDrawer::draw(const std::shared_ptr<const Particles>& part
   options.rendering.device = Device::automatic;
   const bool is_mass = options.appearance.look == Look::mass;
   // Until what is to be shown has been read, what has been is shown.
-  const bool is_wanted = !is_mass || quantity_name_of(options.quantity) == particles->quantity;
-  if (!is_wanted) options.quantity = particles->quantity;
+  const bool is_wanted = reads_the_same(state.look.choice, particles->choice);
+  if (!is_wanted) {
+    options.choice = {};
+    put_choice(particles->choice, options);
+    if (!is_mass) options.quantity.clear();
+  }
   if (is_mass && (std::isnan(options.least) || std::isnan(options.most))) {
     const Brightness found = brightness_for(particles->statistics, options);
     if (std::isnan(options.least)) options.least = found.least;
@@ -176,7 +192,7 @@ DrawnParticles ParticleDrawer::draw(const std::shared_ptr<const Particles>& part
   }
   // Fewer particles have less light, but for those that hide each other; a mean stays as it is.
   const float light = options.rendering.opaque ? 1.f : static_cast<float>(every);
-  const float fewer = particles->quantity.empty() ? light : 1.f;
+  const float fewer = quantity_name_of(particles->choice.quantity).empty() ? light : 1.f;
   options.rendering.exposure *= light;
   options.least /= fewer;
   options.most /= fewer;

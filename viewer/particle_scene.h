@@ -17,6 +17,12 @@ namespace wheatstone::viewer {
 
 class Viewer;
 
+/// Puts what is read into options. Throws Error{wrong_usage} where a text makes no sense.
+void put_choice(const ParticleChoice& choice, RenderParticlesOptions& options);
+
+/// Whether the same numbers are read for both: the mean of a quantity has its name.
+bool reads_the_same(const ParticleChoice& a, const ParticleChoice& b);
+
 /// How deep a state has particles, or slices, stand on its display.
 PerceivedDepth perceived_depth(const ViewState& state);
 

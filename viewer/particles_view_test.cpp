@@ -100,12 +100,37 @@ TEST_F(OpenParticles, ShowTheNumbersThatRenderShows) {
   EXPECT_LT(psnr_db(before, picture()), 40);
 }
 
+TEST_F(OpenParticles, AreOnlyThoseThatAConditionChooses) {
+  const auto shown = [&] { return open_particles(viewer)->cloud.size(); };
+  const std::size_t all = shown();
+  run("where \"rho > 2 and x < 9\"");
+  EXPECT_GT(likeness_to_command(), 50);
+  EXPECT_NEAR(static_cast<double>(shown()), 2000, 2);
+  EXPECT_THAT(command_line_of(viewer.session()), HasSubstr("--where 'rho > 2 and x < 9'"));
+  expect_error(ErrorKind::wrong_usage, "where:", [&] { run("where \"rho >\""); });
+  run("where \"wealth > 2\"");
+  EXPECT_TRUE(viewer.session().message_is_error);
+  EXPECT_THAT(viewer.session().message, HasSubstr("wealth"));
+  EXPECT_EQ(state().look.choice.where, "rho > 2 and x < 9");
+  run("where all");
+  EXPECT_EQ(shown(), all);
+  run("undo");
+  EXPECT_LT(shown(), all);
+}
+
+TEST_F(OpenParticles, HaveNoTypesInATable) {
+  expect_error(ErrorKind::wrong_usage, "expected TYPE=COLOUR", [&] { run("type-colours gas"); });
+  run("type-colours gas=FFB347:6");
+  EXPECT_TRUE(viewer.session().message_is_error);
+  EXPECT_EQ(state().look.choice.type_colours, "");
+}
+
 TEST_F(OpenParticles, StayAsTheyAreWhereAQuantityIsNotThere) {
   run("quantity mean:rho");
   run("quantity mean:colour-of-money");
   EXPECT_TRUE(viewer.session().message_is_error);
   EXPECT_THAT(viewer.session().message, HasSubstr("colour-of-money"));
-  EXPECT_EQ(state().look.quantity, "rho");
+  EXPECT_EQ(state().look.choice.quantity, "mean:rho");
   EXPECT_GT(likeness_to_command(), 50);
 }
 

@@ -25,11 +25,19 @@ struct ScreenFocus {
   friend bool operator==(const ScreenFocus&, const ScreenFocus&) = default;
 };
 
+/// What is read of a file of particles, as the options of `wheatstone render` have it.
+struct ParticleChoice {
+  std::string quantity;      ///< RenderParticlesOptions::quantity
+  std::string where;         ///< the condition for particles that are kept; empty: all are
+  std::string type_colours;  ///< types in colours of their own; empty: gas
+  friend bool operator==(const ParticleChoice&, const ParticleChoice&) = default;
+};
+
 /// How particles look, and how deep they or slices stand: the options of `wheatstone render` of these names. Empty:
 /// what `render` takes without the option.
 struct ParticleLook {
   Look look = Look::mass;
-  std::string quantity;  ///< RenderParticlesOptions::quantity
+  ParticleChoice choice;
   Stretch stretch = Stretch::asinh;
   /// Where the brightness of mass begins and ends. Empty until the first picture has found it.
   std::optional<float> least, most;

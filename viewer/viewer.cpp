@@ -154,10 +154,10 @@ void Viewer::open(std::size_t item) {
   failed_time_.reset();
   reading_ahead_.stop();
   making_.start([this, job, before, files = session_.items[item], ahead = take_ahead(session_.items[item]),
-                 quantity = session_.state.look.quantity](const std::stop_token& stop) {
+                 particles = session_.state.look.choice](const std::stop_token& stop) {
     find_walk(job, files);
     try {
-      Opened opened = ahead ? *ahead : open_content(files, progress_of(job, stop), showing(job), quantity);
+      Opened opened = ahead ? *ahead : open_content(files, progress_of(job, stop), showing(job), particles);
       mailbox_.post([this, job, opened = std::move(opened)]() mutable {
         if (job == job_) take_opened(std::move(opened));
       });

@@ -123,7 +123,7 @@ class Viewer {
   void show_particles_at(double seconds);
   /// Has the particles read that the state wants, where others are open and none are being read.
   void read_wanted_particles();
-  void read_particles_for(const std::string& quantity, double time);
+  void read_particles_for(const ParticleChoice& choice, double time);
   void post_particles_failure(const Error& error, double time, std::uint64_t job);
   void draw_if_changed();
   struct Asked;

@@ -61,21 +61,21 @@ void Viewer::move_particles(double passed_s) {
 void Viewer::read_wanted_particles() {
   const Particles* const particles = open_particles(*this);
   if (particles == nullptr || !session_.opened.reader || reads_particles_ || session_.opening) return;
-  const std::string& quantity = session_.state.look.quantity;
+  const ParticleChoice& choice = session_.state.look.choice;
   const bool is_series = !times_of(session_).empty();
   const double time = is_series ? series_time(session_) : 0;
-  const bool other_quantity = quantity_name_of(quantity) != particles->quantity;
-  if (!other_quantity && (!is_series || time == particles->time || time == failed_time_)) return;
-  if (other_quantity) session_.opening = Activity{"reading", 0};
+  const bool is_other = !reads_the_same(choice, particles->choice);
+  if (!is_other && (!is_series || time == particles->time || time == failed_time_)) return;
+  if (is_other) session_.opening = Activity{"reading", 0};
   reads_particles_ = true;
-  read_particles_for(quantity, time);
+  read_particles_for(choice, time);
 }
 
-void Viewer::read_particles_for(const std::string& quantity, double time) {
+void Viewer::read_particles_for(const ParticleChoice& choice, double time) {
   const std::uint64_t job = ++job_;
-  making_.start([this, job, quantity, time, reader = session_.opened.reader](const std::stop_token& stop) {
+  making_.start([this, job, choice, time, reader = session_.opened.reader](const std::stop_token& stop) {
     try {
-      const std::shared_ptr<const Particles> read = reader->read(quantity, time, progress_of(job, stop));
+      const std::shared_ptr<const Particles> read = reader->read(choice, time, progress_of(job, stop));
       mailbox_.post([this, job, read] {
         if (job != job_) return;
         reads_particles_ = false;
@@ -97,8 +97,8 @@ void Viewer::post_particles_failure(const Error& error, double time, std::uint64
     reads_particles_ = false;
     session_.opening.reset();
     const Particles& particles = *open_particles(*this);
-    if (quantity_name_of(session_.state.look.quantity) != particles.quantity) {
-      session_.state.look.quantity = particles.quantity;
+    if (!reads_the_same(session_.state.look.choice, particles.choice)) {
+      session_.state.look.choice = particles.choice;
       forget_brightness(session_.state.look);
     } else {
       session_.film->plays = false;

@@ -9,6 +9,7 @@
 #include <QFormLayout>
 #include <QHBoxLayout>
 #include <QLabel>
+#include <QLineEdit>
 #include <QPixmap>
 #include <QPushButton>
 #include <QSlider>
@@ -36,6 +37,8 @@ CommandControls::CommandControls(std::string_view menu, bool with_choices, QForm
       rows_.push_back(slider_of(command, parent));
     else if (with_choices && command.arguments == "on|off")
       rows_.push_back(switch_of(command, parent));
+    else if (command.entry.is_text)
+      rows_.push_back(line_of(command, parent));
     else if (with_choices && has_choices(command))
       rows_.push_back(box_of(command, parent));
     else if (command.arguments == "COLOUR")
@@ -108,6 +111,25 @@ CommandControls::Row CommandControls::switch_of(const Command& command, QWidget*
   return {&command, box, [&command, box](const Viewer& viewer) {
             const QSignalBlocker quiet(box);
             box->setChecked(command.entry.now(viewer) == "on");
+          }};
+}
+
+/// "CONDITION|all" is typed, or nothing for "all".
+CommandControls::Row CommandControls::line_of(const Command& command, QWidget* parent) {
+  auto* const line = new QLineEdit(parent);
+  const std::string none(command.arguments.substr(command.arguments.find('|') + 1));
+  line->setPlaceholderText(QString::fromStdString(none));
+  QObject::connect(line, &QLineEdit::editingFinished, parent, [this, &command, line, none] {
+    if (!line->isModified()) return;
+    line->setModified(false);
+    const std::string typed = line->text().trimmed().toStdString();
+    do_command_(std::string(command.name), {typed.empty() ? none : typed});
+  });
+  return {&command, line, [&command, line, none](const Viewer& viewer) {
+            if (line->hasFocus() && line->isModified()) return;
+            const std::string now = command.entry.now(viewer);
+            const QString text = now == none ? QString() : QString::fromStdString(now);
+            if (text != line->text()) line->setText(text);
           }};
 }
 

@@ -15,8 +15,8 @@ namespace wheatstone::viewer {
 
 class Viewer;
 
-/// A control for each command of a menu whose argument is a number, a choice or a switch: what a panel shows of the
-/// table of commands.
+/// A control for each command of a menu whose argument is a number, a choice, a switch or a text: what a panel shows of
+/// the table of commands.
 class CommandControls {
  public:
   /// Adds a row for each to a form. Switches and choices are left to the menus where `with_choices` is false.
@@ -33,6 +33,7 @@ class CommandControls {
   Row slider_of(const Command& command, QWidget* parent);
   Row box_of(const Command& command, QWidget* parent);
   Row switch_of(const Command& command, QWidget* parent);
+  Row line_of(const Command& command, QWidget* parent);
   Row colour_of(const Command& command, QWidget* parent);
 
   DoCommand do_command_;

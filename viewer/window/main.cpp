@@ -67,6 +67,7 @@ void begin(Window& window, const ViewArguments& arguments) {
   run("style", arguments.style);
   run("camera", arguments.camera);
   run("quantity", arguments.quantity);
+  run("where", arguments.where);
   run("focus", arguments.focus);
   if (arguments.focus_radius) run("focus-radius", fmt::format("{}", *arguments.focus_radius));
   if (arguments.focus_gain) run("focus-gain", fmt::format("{}", *arguments.focus_gain));

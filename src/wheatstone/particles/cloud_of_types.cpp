@@ -6,11 +6,15 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <set>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "wheatstone/error.h"
+#include "wheatstone/image/colour.h"
+#include "wheatstone/particles/columns_internal.h"
 #include "wheatstone/particles/snapshot_internal.h"
 
 namespace wheatstone {
@@ -99,6 +103,34 @@ CloudSource open_types(const std::filesystem::path& path, const CloudChoice& cho
   source.reuse = [types](Cloud used) { types->reuse(std::move(used)); };
   source.skip = [types](std::size_t most) { return types->skip(most); };
   return source;
+}
+
+std::vector<TypeColour> parse_type_colours(std::string_view text, std::string_view name) {
+  constexpr float least_light = 1e-3f, most_light = 1e6f;
+  const auto refuse = [&](std::string_view part, std::string_view expected) {
+    throw Error(ErrorKind::wrong_usage, fmt::format("{}: is '{}', expected {}", name, part, expected));
+  };
+  std::vector<TypeColour> types;
+  std::string_view rest = text;
+  while (true) {
+    const std::string_view one = rest.substr(0, rest.find(','));
+    const std::size_t sign = one.find('='), colon = std::min(one.find(':', sign), one.size());
+    if (sign == std::string_view::npos || sign == 0) refuse(text, "TYPE=COLOUR,... as gas=FFB347:6,stars=FFFFFF");
+    TypeColour& type = types.emplace_back();
+    type.type = one.substr(0, sign);
+    const std::string_view code = one.substr(0, colon).substr(sign + 1);
+    const std::optional<Rgb8> colour = colour_of_code(code);
+    if (!colour) refuse(code, "a colour as 3366FF");
+    type.colour = *colour;
+    if (colon < one.size()) {
+      const std::optional<double> light = parse_number(one.substr(colon + 1));
+      if (!light || !(*light >= least_light && *light <= most_light))
+        refuse(one.substr(colon + 1), "a number from 0.001 to 1000000");
+      type.light = static_cast<float>(*light);
+    }
+    if (one.size() == rest.size()) return types;
+    rest.remove_prefix(one.size() + 1);
+  }
 }
 
 }  // namespace wheatstone

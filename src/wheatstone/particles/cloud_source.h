@@ -6,6 +6,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -22,6 +23,10 @@ struct TypeColour {
   float light = 1;  ///< that they give, as a multiple of what their mass gives (Cloud::presence)
   friend bool operator==(const TypeColour&, const TypeColour&) = default;
 };
+
+/// Types as they are written, "gas=FFB347:6,stars=FFFFFF": each with a colour and, after a colon, its light. Throws
+/// Error{wrong_usage}, beginning with `name`.
+std::vector<TypeColour> parse_type_colours(std::string_view text, std::string_view name = "type colours");
 
 /// What of a file becomes the cloud. Names that are empty are found by the format's own conventions.
 struct CloudChoice {
