@@ -16,7 +16,7 @@ std::vector<Command> all_commands() {
   std::vector<Command> all;
   for (const std::span<const Command> group :
        {file_commands(), looking_commands(), depth_commands(), input_commands(), painting_commands(), film_commands(),
-        particle_commands(), quantity_commands(), camera_commands(), panel_commands(), retouch_commands()})
+        camera_commands(), particle_commands(), quantity_commands(), panel_commands(), retouch_commands()})
     all.insert(all.end(), group.begin(), group.end());
   std::stable_partition(all.begin(), all.end(), [](const Command& command) { return command.menu != "Help"; });
   return all;
@@ -96,6 +96,7 @@ bool menu_applies(const Viewer& viewer, std::string_view menu) {
   if (menu == "Film") return session.film.has_value();
   if (menu == "Painting") return shows_painting(viewer);
   if (menu == "Particles") return shows_particles(viewer);
+  if (menu == "Camera") return turns_around(viewer);
   return shows_something(viewer);
 }
 

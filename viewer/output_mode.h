@@ -18,6 +18,7 @@ namespace wheatstone::viewer {
 enum class SingleEye { left, right };
 /// Views one after the other, there and back.
 struct Wiggle {};
+inline constexpr int wiggle_views = 5;
 /// Every other picture that the screen shows is the other eye's.
 struct PageFlip {};
 /// All views of a display side by side, or under its lenses.

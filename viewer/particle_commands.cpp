@@ -1,4 +1,4 @@
-// How particles are looked at, what of them is shown, and where there is more depth.
+// What of particles is shown, how, and where there is more depth.
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -14,31 +14,6 @@
 
 namespace wheatstone::viewer {
 namespace {
-
-void orbit(Viewer& viewer, const Words& words) {
-  wheatstone::Framing& framing = state_of(viewer).orbit;
-  framing.azimuth_deg = static_cast<float>(std::remainder(framing.azimuth_deg + number_of(words[0]), 360));
-  framing.elevation_deg = static_cast<float>(std::clamp(framing.elevation_deg + number_of(words[1]), -89., 89.));
-}
-
-void look_at(Viewer& viewer, const Words& words) {
-  const Orbited open = orbited_or_refuse(viewer.session().opened.content);
-  std::array<float, 3> point{};
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    point[axis] = static_cast<float>(number_of(words[axis]) - open.origin[axis]);
-  state_of(viewer).orbit.look_at = point;
-}
-
-void look_at_place(Viewer& viewer, const Words& words) {
-  const std::optional<PlaceInView> place = place_at(frame_of(viewer).places, number_of(words[0]), number_of(words[1]));
-  if (!turns_around(viewer) || !place) return;
-  const std::optional<SeenPoint> seen = point_at(viewer, *place);
-  if (!seen) {
-    viewer.tell("there is nothing there");
-    return;
-  }
-  state_of(viewer).orbit.look_at = seen->position;
-}
 
 /// "auto", or a number.
 std::optional<float> number_or_auto(const std::string& word, double least, double most) {
@@ -128,36 +103,6 @@ std::vector<Choice> colour_choices(const Viewer& /*viewer*/) {
 
 constexpr Command particle_table[] = {
     // name, arguments, menu, text, keys
-    {"orbit",
-     "AZIMUTH ELEVATION",
-     "Particles",
-     "Turn around particles or a model, in degrees",
-     "",
-     orbit,
-     {.applies = turns_around}},
-    {"magnify",
-     "FACTOR",
-     "Particles",
-     "Magnification",
-     "",
-     [](Viewer& v, const Words& w) { state_of(v).orbit.zoom = static_cast<float>(number_of(w[0], 0.01, 1e6)); },
-     {.now = [](const Viewer& v) { return fmt::format("{}", v.session().state.orbit.zoom); },
-      .range = {0.1, 20, 0.1},
-      .applies = turns_around}},
-    {"look-at",
-     "X Y Z",
-     "Particles",
-     "Point at the centre of the view, around which it turns",
-     "",
-     look_at,
-     {.applies = turns_around}},
-    {"look-at-place",
-     "X Y",
-     "Particles",
-     "Look at what is at a place on the screen",
-     "",
-     look_at_place,
-     {.applies = turns_around}},
     {"exposure",
      "VALUE|auto",
      "Particles",
@@ -288,12 +233,6 @@ void set_brightness(Viewer& viewer, std::optional<float> ParticleLook::*limit, c
   state_of(viewer).look = look;
 }
 
-void set_projection(Viewer& viewer, const Words& words) {
-  static constexpr std::array projections{std::pair{std::string_view("perspective"), false},
-                                          std::pair{std::string_view("orthographic"), true}};
-  state_of(viewer).orbit.orthographic = one_of(projections, words[0]);
-}
-
 PictureSize size_of_view(const Viewer& viewer) {
   const PictureSize content = size_of(viewer.session().opened.content);
   if (content.width > 0) return content;
@@ -415,17 +354,6 @@ constexpr Command quantity_table[] = {
      [](Viewer& v, const Words& w) { set_brightness(v, &ParticleLook::least, w[0]); }},
     {"most", "VALUE|auto", "Particles", "Column density, or quantity, where brightness ends", "",
      [](Viewer& v, const Words& w) { set_brightness(v, &ParticleLook::most, w[0]); }},
-    {"projection",
-     "perspective|orthographic",
-     "Particles",
-     "Projection",
-     "",
-     set_projection,
-     {.now =
-          [](const Viewer& v) {
-            return v.session().state.orbit.orthographic ? std::string("orthographic") : std::string("perspective");
-          },
-      .applies = turns_around}},
     {"annotate",
      "on|off",
      "Particles",

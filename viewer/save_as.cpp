@@ -27,8 +27,6 @@ namespace fs = std::filesystem;
 
 bool is_of_display(std::string_view format) { return format == "quilt" || format == "lenticular"; }
 
-constexpr int wiggle_views = 5;
-
 /// The packing as `pack` understands it. For a display it is the one that is chosen.
 cli::PackingArguments packing_arguments(const std::string& format, const ViewState& state) {
   cli::PackingArguments arguments;

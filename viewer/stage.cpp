@@ -17,8 +17,6 @@
 namespace wheatstone::viewer {
 namespace {
 
-constexpr int wiggle_views = 5;
-
 /// The number of the view that a wiggle shows in a step: there and back.
 int wiggle_view(int step) {
   constexpr int period = 2 * (wiggle_views - 1);

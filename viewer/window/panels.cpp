@@ -33,16 +33,17 @@ QDockWidget* make_dock(QMainWindow& window, const char* title, QWidget* content)
 
 }  // namespace
 
-/// The commands of the menu Particles, but for what is told by a number of words.
+/// The commands of the menus Camera and Particles, but for what is told by a number of words.
 struct ParticlesPanel {
   explicit ParticlesPanel(const DoCommand& do_command)
       : widget(new QWidget),
         form(new QFormLayout(widget)),
+        camera("Camera", true, *form, do_command),
         particles("Particles", true, *form, do_command),
         depth("Depth", false, *form, do_command) {}
   QWidget* widget;
   QFormLayout* form;
-  CommandControls particles, depth;
+  CommandControls camera, particles, depth;
 };
 
 struct Panels::Parts {
@@ -80,6 +81,7 @@ void Panels::show(const Viewer& viewer) {
   if (panel == Panel::style) parts_->style.show(viewer);
   if (panel == Panel::depth) parts_->depth.show(viewer);
   if (panel == Panel::particles) {
+    parts_->particles.camera.show(viewer);
     parts_->particles.particles.show(viewer);
     parts_->particles.depth.show(viewer);
   }
