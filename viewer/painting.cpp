@@ -72,8 +72,9 @@ namespace {
 /// Retouches a photograph's geometry; goes on from the touches that were done before.
 void retouch_geometry(std::span<const Touch> touches, const Progress& progress, Photograph& photograph) {
   const std::size_t done = photograph.touches.size();
-  const bool goes_on =
-      photograph.found && touches.size() >= done && std::ranges::equal(photograph.touches, touches.first(done));
+  const bool lasso_goes_on = touches.size() > done && is_lasso(touches[done].kind) && touches[done].goes_on;
+  const bool goes_on = photograph.found && touches.size() >= done && !lasso_goes_on &&
+                       std::ranges::equal(photograph.touches, touches.first(done));
   if (!photograph.found) photograph.found = photograph.geometry;
   Image<float> disparity = (goes_on ? *photograph.geometry : *photograph.found).left_disparity;
   retouch_disparity(goes_on ? touches.subspan(done) : touches, photograph.pictures.left, disparity, progress);

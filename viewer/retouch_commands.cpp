@@ -74,6 +74,15 @@ Touch touch_of(const Session& session, const SeenPlace& at, float pressure) {
     case RetouchTool::fill_near:
       is(Retouch::fill, nearest);
       break;
+    case RetouchTool::lasso_nearer:
+      is(Retouch::shift_area, brush.strength);
+      break;
+    case RetouchTool::lasso_farther:
+      is(Retouch::shift_area, -brush.strength);
+      break;
+    case RetouchTool::lasso_flatten:
+      is(Retouch::set_area, brush.begun_at_px.value_or(at.disparity_px));
+      break;
     case RetouchTool::finer:
       is(Retouch::detail, detail_levels * strength);
       break;
@@ -181,7 +190,8 @@ void save_disparity(Viewer& viewer, const Words& words) {
 constexpr Command retouch_table[] = {
     // name, arguments, menu, text, keys
     {"retouch",
-     "off|nearer|farther|smooth|flatten|fill-far|fill-near|finer|coarser|paint|erase|recolour|pick",
+     "off|nearer|farther|smooth|flatten|fill-far|fill-near|lasso-nearer|lasso-farther|lasso-flatten|finer|coarser|"
+     "paint|erase|recolour|pick",
      "Retouch",
      "Brush: the pointer changes depth, where the painting is fine, or its strokes",
      "",

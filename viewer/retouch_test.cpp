@@ -63,6 +63,23 @@ std::size_t stroke_count(const Painting& painting) {
   return count;
 }
 
+TEST_F(OpenPhotograph, HasTheDepthOfAnAreaShiftedOnceHoweverOftenItIsPaintedOnTheWay) {
+  const Image<float> before = disparity();
+  run("retouch lasso-farther");
+  run("brush-strength 3");
+  run("touch 60 40");
+  run("touch-on 160 40");
+  run("touch-on 160 110");
+  const float on_the_way = disparity()(150, 60);
+  run("touch-on 60 110");
+  EXPECT_FLOAT_EQ(on_the_way, before(150, 60) - 3);
+  EXPECT_FLOAT_EQ(disparity()(150, 60), before(150, 60) - 3);
+  EXPECT_FLOAT_EQ(disparity()(70, 100), before(70, 100) - 3);
+  EXPECT_EQ(disparity()(180, 80), before(180, 80));
+  run("undo");
+  EXPECT_EQ(disparity(), before);
+}
+
 TEST_F(OpenPhotograph, IsPaintedAnewWithTheDepthThatAHandGaveIt) {
   const Image<float> before = disparity();
   const std::optional<float> seen = disparity_under(viewer, 120, 80);

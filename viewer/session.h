@@ -53,6 +53,9 @@ enum class RetouchTool {
   flatten,
   fill_far,
   fill_near,
+  lasso_nearer,
+  lasso_farther,
+  lasso_flatten,
   finer,
   coarser,
   paint,
@@ -61,9 +64,9 @@ enum class RetouchTool {
   pick
 };
 
-inline constexpr std::array<std::string_view, 13> retouch_tool_names{
-    "off",   "nearer",  "farther", "smooth", "flatten",  "fill-far", "fill-near",
-    "finer", "coarser", "paint",   "erase",  "recolour", "pick"};  ///< in their order
+inline constexpr std::array<std::string_view, 16> retouch_tool_names{
+    "off",           "nearer", "farther", "smooth", "flatten", "fill-far", "fill-near", "lasso-nearer", "lasso-farther",
+    "lasso-flatten", "finer",  "coarser", "paint",  "erase",   "recolour", "pick"};  ///< in their order
 
 struct RetouchBrush {
   RetouchTool tool = RetouchTool::off;

@@ -48,7 +48,9 @@ void BrushPointer::touch(const QPointF& place, bool goes_on) {
 void BrushPointer::draw_to(const QPointF& place) {
   const RetouchBrush& brush = viewer_.session().retouch;
   if (brush.tool == RetouchTool::fill_far || brush.tool == RetouchTool::fill_near) return;  // one fill a press
-  const double step = std::max(brush.radius_px * viewer_.frame()->scale / 2, 1.0);
+  constexpr double lasso_step = 4;
+  const bool is_lasso = brush.tool >= RetouchTool::lasso_nearer && brush.tool <= RetouchTool::lasso_flatten;
+  const double step = is_lasso ? lasso_step : std::max(brush.radius_px * viewer_.frame()->scale / 2, 1.0);
   const QPointF from = touched_at_, way = place - from;
   const double length = std::hypot(way.x(), way.y());
   for (int i = 1; i * step <= length; ++i) touch(from + way * (i * step / length), true);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
+#include <vector>
 
 #include "wheatstone/image/mat_opencv.h"
 
@@ -71,11 +72,40 @@ void fill(const Touch& touch, ImageView<const Rgb8> picture, Image<float>& dispa
   as_mat(disparity).setTo(static_cast<double>(touch.amount), closed);
 }
 
+/// How many touches belong to the stroke of the hand that the first one begins.
+std::size_t touches_of_hand(std::span<const Touch> touches) {
+  std::size_t count = 1;
+  while (count < touches.size() && touches[count].goes_on && touches[count].kind == touches[0].kind) ++count;
+  return count;
+}
+
+/// Replaces each value in the area that touches go around by `change(value)`.
+template <class Change>
+void change_area(std::span<const Touch> around, Image<float>& disparity, Change change) {
+  if (around.size() < 3) return;  // a point, or a line
+  constexpr int fraction_bits = 4;
+  constexpr float steps_a_px = 1 << fraction_bits;
+  std::vector<cv::Point> corners;
+  // OpenCV has the middles of pixels at whole numbers.
+  for (const Touch& touch : around)
+    corners.emplace_back(cv::saturate_cast<int>((touch.x - 0.5f) * steps_a_px),
+                         cv::saturate_cast<int>((touch.y - 0.5f) * steps_a_px));
+  cv::Mat inside(disparity.height(), disparity.width(), CV_8U, cv::Scalar(0));
+  cv::fillPoly(inside, std::vector{corners}, cv::Scalar(255), cv::LINE_8, fraction_bits);
+  for (int y = 0; y < disparity.height(); ++y)
+    for (int x = 0; x < disparity.width(); ++x)
+      if (inside.at<std::uint8_t>(y, x) != 0) disparity(x, y) = change(disparity(x, y));
+}
+
 }  // namespace
 
 void retouch_disparity(std::span<const Touch> touches, ImageView<const Rgb8> picture, Image<float>& disparity,
                        const Progress& progress) {
-  for (const Touch& touch : touches) {
+  for (std::size_t i = 0; i < touches.size();) {
+    const Touch& touch = touches[i];
+    const std::span<const Touch> hand =
+        touches.subspan(i, is_lasso(touch.kind) ? touches_of_hand(touches.subspan(i)) : 1);
+    i += hand.size();
     report(progress, "retouching", 0);
     switch (touch.kind) {
       case Retouch::shift:
@@ -89,6 +119,12 @@ void retouch_disparity(std::span<const Touch> touches, ImageView<const Rgb8> pic
         break;
       case Retouch::fill:
         fill(touch, picture, disparity);
+        break;
+      case Retouch::shift_area:
+        change_area(hand, disparity, [&](float d) { return d + touch.amount; });
+        break;
+      case Retouch::set_area:
+        change_area(hand, disparity, [&](float) { return touch.amount; });
         break;
       case Retouch::detail:
       case Retouch::paint:

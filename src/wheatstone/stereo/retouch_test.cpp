@@ -53,6 +53,35 @@ TEST(Retouch, SmoothsAStep) {
   EXPECT_NEAR(disparity(39, 30) + disparity(40, 30), 8, 0.01f);
 }
 
+/// A triangle as a hand goes around it.
+std::vector<Touch> around(Retouch kind, float amount) {
+  return {{.kind = kind, .x = 10, .y = 10, .amount = amount},
+          {.kind = kind, .x = 50, .y = 10, .amount = amount, .goes_on = true},
+          {.kind = kind, .x = 10, .y = 50, .amount = amount, .goes_on = true}};
+}
+
+TEST(Retouch, ShiftsTheAreaThatALassoGoesAround) {
+  Image<float> disparity(width, height, 10);
+  disparity(20, 20) = 12;
+  retouch_disparity(around(Retouch::shift_area, 3), sky_above_wood(), disparity);
+  EXPECT_EQ(disparity(15, 15), 13);
+  EXPECT_EQ(disparity(20, 20), 15);
+  EXPECT_EQ(disparity(40, 40), 10);
+  EXPECT_EQ(disparity(8, 20), 10);
+}
+
+TEST(Retouch, ALassoIsDoneOnceAndTheNextBeginsAnew) {
+  Image<float> disparity(width, height, 10);
+  std::vector<Touch> touches = around(Retouch::shift_area, 3);
+  for (const Touch& touch : around(Retouch::set_area, 1)) touches.push_back(touch);
+  for (const Touch& touch : around(Retouch::shift_area, 2)) touches.push_back(touch);
+  touches.push_back({.kind = Retouch::shift_area, .x = 60, .y = 50, .amount = 7});  // goes around nothing yet
+  retouch_disparity(touches, sky_above_wood(), disparity);
+  EXPECT_EQ(disparity(15, 15), 3);
+  EXPECT_EQ(disparity(60, 50), 10);
+  EXPECT_EQ(disparity(40, 40), 10);
+}
+
 TEST(Retouch, FillsTheSkyToItsRim) {
   const Image<Rgb8> picture = sky_above_wood();
   Image<float> disparity(width, height, 10);
