@@ -177,6 +177,7 @@ Json facts_of_particles(const fs::path& path, const CloudChoice& choice, const S
   if (choice.where) facts["chosen"] = count_chosen(source, session.progress);
   if (source.box_size > 0) facts["box_size"] = source.box_size;
   if (source.redshift) facts["redshift"] = *source.redshift;
+  if (source.time && !source.redshift) facts["time"] = *source.time;
   facts["bytes"] = source.bytes;
   facts["fields"] = fmt::format("{}", fmt::join(source.fields, ", "));
   std::vector<std::string> units;

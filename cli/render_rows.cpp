@@ -381,7 +381,7 @@ Rows method_rows(RenderArguments& a) {
   return under(
       method_heading,
       {row("--annotate", flag(a.annotate),
-           "Draw a scale bar, the colours with their numbers and units, and the redshift into each view",
+           "Draw a scale bar, the colours with their numbers and units, and the redshift, or the time, into each view",
            {beside_particles(a), when([&a] { return !a.interleave.empty(); }, "with --interleave; it works on views")}),
        row("--title", text(a.annotation.title), "Title at the top of each view", {}, "--annotate"),
        row("--annotation-depth", length(a.annotation.behind_mm, annotation_range_mm),

@@ -19,9 +19,9 @@ namespace wheatstone::python {
 /// Particles of arrays, of a file, or between two files of a series.
 struct PyParticles {
   Cloud cloud;
-  std::string name;    ///< what messages call them
-  CloudSource source;  ///< of what is told: format and units
-  std::optional<double> redshift;
+  std::string name;                      ///< what messages call them
+  CloudSource source;                    ///< of what is told: format and units
+  std::optional<double> redshift, time;  ///< as CloudSource has them
   bool is_file = false;
   CloudChoice choice;  ///< that a file was read with
 };

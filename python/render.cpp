@@ -56,6 +56,7 @@ RenderedParticles rendered(const Particles& given, const RenderParticlesOptions&
       render_ready(ready_particles(particles->cloud, particles->name, options, progress), options, progress);
   made.format = particles->source.format;
   made.redshift = particles->redshift;
+  if (!made.redshift) made.time = particles->time;
   made.units = units_of(particles->source, options, made.has_mass);
   for (std::string& warning : discomforts_of(options)) made.warnings.push_back(std::move(warning));
   return made;
@@ -141,6 +142,7 @@ Particles read_particles_of(const std::filesystem::path& path, const CloudChoice
                   .name = path.string(),
                   .source = told_by(source),
                   .redshift = source.redshift,
+                  .time = source.time,
                   .is_file = true,
                   .choice = choice};
   });
@@ -163,6 +165,7 @@ py::tuple views_and_facts(RenderedParticles made) {
   facts["unit"] = made.units.value;
   facts["length_unit"] = made.units.length;
   facts["redshift"] = made.redshift;
+  facts["time"] = made.time;
   facts["warnings"] = made.warnings;
   return py::make_tuple(array_of(made.rendered.views), facts);
 }

@@ -53,7 +53,7 @@ std::shared_ptr<PyParticles> particles_between(const PySeries& series, double ti
   const std::optional<double> redshift = series.first.redshift ? std::optional(1 / time - 1) : std::nullopt;
   return result_of([series, time, redshift](const Progress& progress) {
     auto particles = std::make_shared<PyParticles>(
-        PyParticles{.name = series.pattern, .source = series.first, .redshift = redshift});
+        PyParticles{.name = series.pattern, .source = series.first, .redshift = redshift, .time = time});
     with_files([&] { particles->cloud = series.reader->at(time, progress); });
     return particles;
   });

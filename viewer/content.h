@@ -59,7 +59,7 @@ struct Particles : ReadyParticles {
   ParticleChoice choice;  ///< that they were read with
   ShownUnits units;       ///< of its quantity
   std::optional<double> redshift;
-  double time = 0;  ///< of a series
+  std::optional<double> time;  ///< of the snapshot, or of a series
 };
 struct ParticlesContent {
   std::shared_ptr<const Particles> particles;

@@ -357,7 +357,7 @@ constexpr Command quantity_table[] = {
     {"annotate",
      "on|off",
      "Particles",
-     "Show a scale bar, a colour bar with units, and the redshift",
+     "Show a scale bar, a colour bar with units, and the redshift or the time",
      "",
      [](Viewer& v, const Words& w) { state_of(v).look.annotated = switch_of(w[0]); },
      {.is_for_scripts = true}},

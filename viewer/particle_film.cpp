@@ -32,7 +32,7 @@ ParticleReader::ParticleReader(std::filesystem::path input) : input_(std::move(i
   }
   const CloudSource source = open_cloud(first_);
   fields_ = source.fields;
-  time_is_scale_factor_ = source.time && source.redshift && std::abs(*source.time * (1 + *source.redshift) - 1) < 1e-3;
+  time_is_scale_factor_ = source.time && source.redshift;
 }
 
 std::shared_ptr<const Particles> ParticleReader::read(const ParticleChoice& choice, double time,
@@ -44,6 +44,7 @@ std::shared_ptr<const Particles> ParticleReader::read(const ParticleChoice& choi
   if (times_.empty()) {
     static_cast<ReadyParticles&>(*particles) = read_particles(input_, options, progress);
     particles->redshift = source.redshift;
+    particles->time = source.time;
   } else {
     if (!frames_ || frames_choice_ != choice) {
       frames_.reset();

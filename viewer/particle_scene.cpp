@@ -205,6 +205,7 @@ DrawnParticles ParticleDrawer::draw(const std::shared_ptr<const Particles>& part
   if (state.look.annotated) {
     rendered.units = particles->units;
     rendered.redshift = particles->redshift;
+    if (!particles->redshift) rendered.time = particles->time;
     annotate(rendered, rendered.rendered.views,
              {.title = state.look.title, .behind_mm = state.look.annotation_behind_mm});
   }

@@ -168,13 +168,19 @@ bool add_types(const RenderedParticles& rendered, const Image<Rgb8>& view, const
   return true;
 }
 
-/// The redshift at the upper left, and the title in the middle, below the redshift where they would meet; false where
+/// When a picture is: "z = 0.50" of a universe that expands, "t = 1.25" of another simulation; empty where unknown.
+std::string moment_told(const RenderedParticles& rendered) {
+  if (rendered.redshift) return fmt::format("z = {:.2f}", *rendered.redshift);
+  if (rendered.time) return fmt::format("t = {:.4g}", *rendered.time);
+  return {};
+}
+
+/// The redshift or the time at the upper left, and the title in the middle, below it where they would meet; false where
 /// the title does not fit.
 bool add_words(const RenderedParticles& rendered, const std::string& title, const Image<Rgb8>& view,
                const Measures& measures, Drawing& drawing) {
   int top = measures.margin, taken = 0;
-  if (rendered.redshift) {
-    const std::string text = fmt::format("z = {:.2f}", *rendered.redshift);
+  if (const std::string text = moment_told(rendered); !text.empty()) {
     Image<std::uint8_t> label = std::move(set_labels(std::span(&text, 1), measures.letters).front());
     taken = measures.side + label.width() + measures.letters;
     drawing.inked.push_back({measures.side, top, std::move(label)});

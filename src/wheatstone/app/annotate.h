@@ -20,10 +20,10 @@ struct Annotation {
   ShownAs shown_as = ShownAs::still;
 };
 
-/// Draws a scale bar, the colours with their numbers and units, or those of types with their names, the redshift of a
-/// snapshot and a title into the views of `rendered.rig`, all of one size, at one depth, to the nearest pixel. The
-/// bar's length is that at the depth that the camera looks at. Says, in words for people, what is left out of views
-/// that are too small for it, and why there are no numbers. Throws as check_annotation.
+/// Draws a scale bar, the colours with their numbers and units, or those of types with their names, the redshift or
+/// the time of a snapshot and a title into the views of `rendered.rig`, all of one size, at one depth, to the nearest
+/// pixel. The bar's length is that at the depth that the camera looks at. Says, in words for people, what is left out
+/// of views that are too small for it, and why there are no numbers. Throws as check_annotation.
 std::vector<std::string> annotate(const RenderedParticles& rendered, std::span<Image<Rgb8>> views,
                                   const Annotation& annotation = {});
 

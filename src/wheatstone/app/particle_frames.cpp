@@ -23,6 +23,7 @@ ParticleFrames::ParticleFrames(const std::string& input, const ParticleFramesOpt
   const CloudSource first = open_cloud(series_ ? series_->series().files.front() : input_, choice_of(particles));
   units_ = units_of(first, particles, statistics_.has_mass);
   redshift_ = first.redshift;
+  if (!redshift_) time_ = first.time;
 }
 
 /// Learns what is held through the film.
@@ -111,8 +112,10 @@ RenderedParticles ParticleFrames::frame(int number, const Progress& progress) {
                                        : render_ready(still_, options, progress);
   rendered.units = units_;
   rendered.redshift = redshift_;
+  rendered.time = time_;
   // The time of a universe that expands is its scale factor.
   if (series_ && redshift_) rendered.redshift = 1 / moment.time - 1;
+  if (series_ && time_) rendered.time = moment.time;
   return rendered;
 }
 

@@ -58,10 +58,10 @@ class ParticleFrames {
   ParticleFramesOptions options_;
   std::filesystem::path input_;
   std::optional<SeriesReader> series_;
-  ReadyParticles still_;            ///< where there is one snapshot
-  CloudStatistics statistics_;      ///< of all snapshots
-  ShownUnits units_;                ///< of the first snapshot
-  std::optional<double> redshift_;  ///< of the first snapshot
+  ReadyParticles still_;                   ///< where there is one snapshot
+  CloudStatistics statistics_;             ///< of all snapshots
+  ShownUnits units_;                       ///< of the first snapshot
+  std::optional<double> redshift_, time_;  ///< of the first snapshot, as RenderedParticles has them
 };
 
 }  // namespace wheatstone

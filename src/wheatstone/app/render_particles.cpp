@@ -322,6 +322,7 @@ RenderedParticles render_particles(const std::filesystem::path& file, const Rend
   RenderedParticles result = render_surveyed(file, options, progress);
   result.format = source.format;
   result.redshift = source.redshift;
+  if (!source.redshift) result.time = source.time;
   result.units = units_of(source, options, result.has_mass);
   for (std::string& warning : discomforts_of(options)) result.warnings.push_back(std::move(warning));
   return result;

@@ -99,9 +99,10 @@ struct RenderedParticles {
   std::optional<Focus> focus;
   std::vector<ViewValues> values;  ///< of the views, where they were asked for
   ShownUnits units;
-  float least = 0, most = 0;  ///< where the brightness of what is shown begins and ends
-  std::optional<double> redshift;
-  std::vector<TypeColour> types;  ///< that have colours of their own
+  float least = 0, most = 0;       ///< where the brightness of what is shown begins and ends
+  std::optional<double> redshift;  ///< of a universe that expands
+  std::optional<double> time;      ///< of another simulation, in its own unit
+  std::vector<TypeColour> types;   ///< that have colours of their own
   std::string format;
   std::uint64_t triangles = 0;   ///< of a model
   std::uint64_t degenerate = 0;  ///< triangles without an area, which were left out

@@ -193,6 +193,26 @@ TEST(RenderParticles, OfWhichEveryThirdIsKeptHaveTheMassOfAll) {
   EXPECT_NEAR(mass_of(3), 1500, 40);
 }
 
+TEST(Annotate, TellsTheTimeWhereTheUniverseDoesNotExpand) {
+  const TemporaryFolder folder;
+  write_whole_file(folder / "a.txt", as_text(cluster(1, 0)));
+  RenderedParticles result = render_particles(folder / "a.txt", {.width = 640, .height = 360, .views = 1});
+  const auto corner = [&] {
+    std::vector<Image<Rgb8>> views = result.rendered.views;
+    annotate(result, views);
+    int drawn = 0;
+    for (int y = 0; y < 60; ++y)
+      for (int x = 0; x < 160; ++x) drawn += views[0](x, y) != result.rendered.views[0](x, y);
+    return drawn;
+  };
+  EXPECT_EQ(corner(), 0);
+  result.time = 1.25;
+  const int with_time = corner();
+  EXPECT_GT(with_time, 100);
+  result.redshift = 0.5;
+  EXPECT_NE(corner(), with_time);
+}
+
 TEST(Annotate, StandsInTheSamePlaceOfEveryView) {
   const TemporaryFolder folder;
   write_whole_file(folder / "a.txt", as_text(cluster(1, 0)));

@@ -124,6 +124,8 @@ CloudSource open_cloud(const std::filesystem::path& path, const CloudChoice& cho
     throw Error(ErrorKind::wrong_usage,
                 fmt::format("{}: is {}, but a particle type is chosen, expected a GADGET snapshot", path.string(),
                             source.format));
+  // The header of other snapshots has a redshift, too, which means nothing.
+  if (source.time && source.redshift && !is_scale_factor(*source.time, *source.redshift)) source.redshift.reset();
   return source;
 }
 

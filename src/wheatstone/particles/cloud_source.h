@@ -59,7 +59,7 @@ struct CloudSource {
   std::string format;                  ///< "GADGET HDF5", "PLY", …, for people
   std::optional<std::uint64_t> count;  ///< particles in all; unknown for text until it is read
   double box_size = 0;                 ///< of the periodic box, 0 where there is none
-  std::optional<double> redshift;      ///< of a snapshot
+  std::optional<double> redshift;      ///< of a snapshot of a universe that expands
   std::optional<double> time;  ///< of a snapshot; the scale factor of a universe that expands, else in its own unit
   std::vector<std::string> fields;  ///< every column that the chosen particles have, as the file names them
   /// Units that the file tells, each with the name of a column or of a quantity: "x", "kpc"; "length", "1 kpc/h".

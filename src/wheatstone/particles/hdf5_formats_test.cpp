@@ -125,6 +125,7 @@ TEST(GadgetHdf5, TellsHowParticlesMoveInTheTimeOfTheSimulation) {
     write_moving(file, 0.25, 0);
   }
   EXPECT_EQ(open_cloud(path).time, 0.25);
+  EXPECT_FALSE(open_cloud(path).redshift) << "the time is no scale factor, so that the header's 0 means nothing";
   EXPECT_THAT(motion().id, ElementsAre(30, 10, 20));
   EXPECT_THAT(motion().rate_y, ElementsAre(2, 5, 8));
   EXPECT_TRUE(read_cloud(path).id.empty());
@@ -135,6 +136,7 @@ TEST(GadgetHdf5, TellsHowParticlesMoveInTheTimeOfTheSimulation) {
     file.attribute("Header", "Omega0", {1});
   }
   EXPECT_EQ(open_cloud(path).time, 0.5);
+  EXPECT_EQ(open_cloud(path).redshift, 1);
   EXPECT_THAT(motion().rate_y, ElementsAre(FloatNear(20, 0.01f), FloatNear(50, 0.01f), FloatNear(80, 0.01f)));
   {
     // SWIFT: seconds as time, Mpc without h, peculiar velocities as they are.

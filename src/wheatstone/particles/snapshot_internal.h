@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <initializer_list>
@@ -43,6 +44,10 @@ struct SnapshotTime {
   /// What the velocities are multiplied by to become changes of position in a unit of that time.
   double rate_of_velocity = 1;
 };
+
+/// Whether a snapshot's time is the scale factor of a universe that expands, as GADGET has it; the headers of others
+/// have a redshift, too.
+inline bool is_scale_factor(double time, double redshift) { return std::abs(time * (1 + redshift) - 1) < 1e-3; }
 
 /// As an open HDF5 snapshot tells it in its header and in the attributes of its datasets, which `group` holds.
 SnapshotTime snapshot_time(std::int64_t file, std::int64_t group);

@@ -56,9 +56,8 @@ SnapshotTime snapshot_time(std::int64_t file, std::int64_t group) {
   if (!redshift || !matter || !(*redshift > -1)) return result;
   const double scale = 1 / (1 + *redshift);
   // GADGET gives a scale factor as the time of a universe that expands; SWIFT says that it does.
-  constexpr double same = 1e-3;
   const bool expands = snapshot_number(file, {"Cosmological run"}).has_value() ||
-                       (result.time && std::abs(*result.time / scale - 1) < same);
+                       (result.time && is_scale_factor(*result.time, *redshift));
   if (!expands) return result;
   const Cosmology cosmology{*matter, snapshot_number(file, {"OmegaLambda", "Omega_lambda"}).value_or(0)};
   return {scale, comoving_rate(file, group, scale, cosmology)};
