@@ -39,6 +39,46 @@ std::optional<SeenPlace> seen_around(const Viewer& viewer, double x, double y) {
   return *middle;
 }
 
+/// What is left then cannot be seen.
+constexpr float near_enough_gain = 0.01f;
+
+/// Particles and slices get more depth in an area of the views. Elsewhere it stays.
+void move_focus_to(Viewer& viewer, double x, double y) {
+  Session& session = viewer.session();
+  const std::optional<PlaceInView> place = place_at(viewer.frame()->places, x, y);
+  if (!place || session.gaze_gains == GazeGains()) return;
+  const PictureSize size = size_of_view(viewer);
+  ScreenFocus& now = session.state.look.focus;
+  ScreenFocus target = now;
+  target.at = {static_cast<float>(std::clamp(place->x / size.width, 0., 1.)),
+               static_cast<float>(std::clamp(place->y / size.height, 0., 1.))};
+  target.gain = session.gaze_gains.there;
+  check_focus_in(viewer, target);
+  session.fixation = Fixation{x, y};
+  session.focus_target = target;
+  if (now.at) return;
+  now.at = target.at;
+  now.gain = 1;
+}
+
+void move_focus(Session& session, float share) {
+  constexpr float near_enough_place = 0.002f;
+  ScreenFocus& now = session.state.look.focus;
+  const ScreenFocus target = *session.focus_target;
+  if (!now.at) return session.focus_target.reset();  // somebody ended it
+  float rest = std::abs(target.gain - now.gain) * near_enough_place / near_enough_gain;
+  now.gain += share * (target.gain - now.gain);
+  for (const std::size_t axis : {0, 1}) {
+    float& place = (*now.at)[axis];
+    rest = std::max(rest, std::abs((*target.at)[axis] - place));
+    place += share * ((*target.at)[axis] - place);
+  }
+  if (rest >= near_enough_place) return;
+  now = target;
+  session.focus_target.reset();
+  if (now.gain == 1) now = {.at = {}, .radius = now.radius};
+}
+
 void move_depth_to(Session& session, const SeenPlace& seen) {
   const GazeGains& gains = session.gaze_gains;
   std::optional<DepthAround>& now = session.state.depth_around;
@@ -96,6 +136,7 @@ std::optional<double> Inputs::next_step_s() const { return tracker_ ? std::optio
 void look_at(Viewer& viewer, double x, double y) {
   Session& session = viewer.session();
   if (session.fixation && std::hypot(x - session.fixation->x, y - session.fixation->y) <= dead_zone_px) return;
+  if (has_focus(session.opened.content)) return move_focus_to(viewer, x, y);
   const std::optional<SeenPlace> seen = seen_around(viewer, x, y);
   if (!seen) return;  // beside the picture
   session.fixation = Fixation{x, y};
@@ -109,19 +150,27 @@ void look_at(Viewer& viewer, double x, double y) {
 void set_gaze_gains(Session& session, const GazeGains& gains) {
   session.gaze_gains = gains;
   session.fixation.reset();  // the next gaze counts, wherever it is
+  if (session.focus_target) session.focus_target->gain = gains.there;
+  if (gains == GazeGains() && session.state.look.focus.at && has_focus(session.opened.content)) {
+    session.focus_target = session.state.look.focus;
+    session.focus_target->gain = 1;
+  }
   if (!session.state.depth_around) return;
   if (!session.depth_around_target) session.depth_around_target = session.state.depth_around;
   session.depth_around_target->gain_there = gains.there;
   session.depth_around_target->gain_elsewhere = gains.elsewhere;
 }
 
-void move_depth_around(Session& session, double passed_s) {
+bool gaze_depth_moves(const Session& session) { return session.depth_around_target || session.focus_target; }
+
+void move_gaze_depth(Session& session, double passed_s) {
+  const auto share = static_cast<float>(1 - std::exp(-passed_s / gaze_easing_s));
+  if (session.focus_target) move_focus(session, share);
   std::optional<DepthAround>& target = session.depth_around_target;
   std::optional<DepthAround>& now = session.state.depth_around;
   if (!target || !now) return;
   // What is left then moves nothing by more than half a pixel.
-  constexpr float near_enough_px = 2, near_enough_disparity_px = 0.1f, near_enough_gain = 0.01f;
-  const auto share = static_cast<float>(1 - std::exp(-passed_s / gaze_easing_s));
+  constexpr float near_enough_px = 2, near_enough_disparity_px = 0.1f;
   bool is_there = true;
   const auto move = [&](float DepthAround::*number, float near_enough) {
     const float rest = *target.*number - *now.*number;

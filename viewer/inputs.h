@@ -35,8 +35,12 @@ void look_at(Viewer& viewer, double x, double y);
 /// Chooses how much depth there is where somebody looks, and elsewhere.
 void set_gaze_gains(Session& session, const GazeGains& gains);
 
-/// Moves more depth on towards where somebody looks.
-void move_depth_around(Session& session, double passed_s);
+/// Moves more depth on towards where somebody looks: around a surface of a painting, and in an area of the views of
+/// particles and slices.
+void move_gaze_depth(Session& session, double passed_s);
+
+/// Whether it has not arrived there.
+bool gaze_depth_moves(const Session& session);
 
 /// The disparity of what is seen at a place, in pixels of the content; none where it is not known.
 std::optional<float> disparity_at(const Content& content, const PlaceInView& place);

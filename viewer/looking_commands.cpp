@@ -270,8 +270,9 @@ void deepen_gaze(Viewer& viewer, const Words& words) {
   constexpr double most = 4;
   set_gaze_gains(viewer.session(),
                  {static_cast<float>(number_of(words[0], 0, most)), static_cast<float>(number_of(words[1], 0, most))});
-  if (!can_bend(viewer.session().opened.content))
-    viewer.tell("more depth at the gaze point needs a painting of strokes or lines");
+  const Content& content = viewer.session().opened.content;
+  if (!can_bend(content) && !has_focus(content))
+    viewer.tell("more depth at the gaze point needs particles, slices, or a painting of strokes or lines");
 }
 
 std::vector<Choice> tracker_choices(const Viewer& /*viewer*/) {

@@ -233,28 +233,13 @@ void set_brightness(Viewer& viewer, std::optional<float> ParticleLook::*limit, c
   state_of(viewer).look = look;
 }
 
-PictureSize size_of_view(const Viewer& viewer) {
-  const PictureSize content = size_of(viewer.session().opened.content);
-  if (content.width > 0) return content;
-  const Rig eyes = eyes_of(viewer);
-  return {eyes.width, eyes.height};
-}
-
-bool shows_focus(const Viewer& viewer) {
-  const Content& content = viewer.session().opened.content;
-  return std::holds_alternative<ParticlesContent>(content) || std::holds_alternative<SlicesContent>(content);
-}
+bool shows_focus(const Viewer& viewer) { return has_focus(viewer.session().opened.content); }
 
 void change_focus(Viewer& viewer, const ScreenFocus& focus) {
   if (!shows_focus(viewer) && shows_something(viewer))
     throw Error(ErrorKind::wrong_usage, "there are no particles or slices; 'gaze-depth' is for paintings");
-  if (const Particles* const particles = open_particles(viewer); particles != nullptr && focus.at) {
-    const Rig eyes = eyes_of(viewer);
-    const Scene scene = particle_scene(*particles, state_of(viewer), eyes);
-    float largest = 0;
-    for (const auto& point : scene.mapping.points) largest = std::max(largest, std::abs(point.parallax_px));
-    check_focus(*focus_in(focus, eyes.width, eyes.height), largest * state_of(viewer).adjustment.separation / 2);
-  }
+  check_focus_in(viewer, focus);
+  viewer.session().focus_target.reset();
   state_of(viewer).look.focus = focus;
 }
 

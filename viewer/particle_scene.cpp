@@ -86,6 +86,28 @@ std::optional<Focus> focus_in(const ScreenFocus& focus, int width, int height) {
                .gain = focus.gain};
 }
 
+bool has_focus(const Content& content) {
+  return std::holds_alternative<ParticlesContent>(content) || std::holds_alternative<SlicesContent>(content);
+}
+
+PictureSize size_of_view(const Viewer& viewer) {
+  const PictureSize content = size_of(viewer.session().opened.content);
+  if (content.width > 0) return content;
+  const Rig eyes = eyes_of(viewer);
+  return {eyes.width, eyes.height};
+}
+
+void check_focus_in(const Viewer& viewer, const ScreenFocus& focus) {
+  const Particles* const particles = open_particles(viewer);
+  if (particles == nullptr || !focus.at) return;
+  const ViewState& state = viewer.session().state;
+  const Rig eyes = eyes_of(viewer);
+  const Scene scene = particle_scene(*particles, state, eyes);
+  float largest = 0;
+  for (const auto& point : scene.mapping.points) largest = std::max(largest, std::abs(point.parallax_px));
+  check_focus(*focus_in(focus, eyes.width, eyes.height), largest * state.adjustment.separation / 2);
+}
+
 RenderParticlesOptions render_options(const ViewState& state, const Rig& rig) {
   const ParticleLook& look = state.look;
   RenderParticlesOptions options;

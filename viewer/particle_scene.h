@@ -33,6 +33,15 @@ RenderParticlesOptions render_options(const ViewState& state, const Rig& rig);
 /// A state's focus in views of this size; none where it has none.
 std::optional<Focus> focus_in(const ScreenFocus& focus, int width, int height);
 
+/// Whether there can be more depth in an area of the views: of particles and slices.
+bool has_focus(const Content& content);
+
+/// The size of a view of what is open, in its own pixels.
+PictureSize size_of_view(const Viewer& viewer);
+
+/// Throws Error{wrong_usage} where a focus would fold the views of the particles that are open.
+void check_focus_in(const Viewer& viewer, const ScreenFocus& focus);
+
 /// What the views of a rig see of particles, as `wheatstone render` has it with the options of the state. Throws
 /// Error{wrong_usage} where these make no sense.
 Scene particle_scene(const Particles& particles, const ViewState& state, const Rig& rig);

@@ -152,6 +152,25 @@ TEST_F(OpenParticles, HaveMoreDepthWhereTheFocusIs) {
   EXPECT_GT(likeness_to_command(), 50);
 }
 
+TEST_F(OpenParticles, GetMoreDepthWhereSomebodyLooksWithoutAJump) {
+  const ScreenFocus& focus = state().look.focus;
+  run("gaze-depth 1.3 1");
+  run_line(viewer, "gaze 40 60");
+  viewer.collect();
+  ASSERT_TRUE(focus.at);
+  EXPECT_LT(focus.gain, 1.3f) << "it becomes deeper, and does not jump";
+  viewer.wait();
+  EXPECT_EQ(focus.gain, 1.3f);
+  const std::array<float, 2> first = *focus.at;
+  EXPECT_GT(likeness_to_command(), 50);
+  run("gaze 80 100");
+  EXPECT_NE(*focus.at, first);
+  EXPECT_GT((*focus.at)[1], first[1]);
+  run("gaze-depth 1 1");
+  EXPECT_FALSE(focus.at);
+  EXPECT_THAT(command_line_of(viewer.session()), testing::Not(HasSubstr("--focus")));
+}
+
 TEST_F(OpenParticles, KeepTheirExposureUntilAnotherIsAskedFor) {
   const std::optional<float> first = state().look.exposure;
   ASSERT_TRUE(first);

@@ -130,6 +130,7 @@ struct Session {
   GazeGains gaze_gains;
   RetouchBrush retouch;
   std::optional<DepthAround> depth_around_target;  ///< what the state's moves to
+  std::optional<ScreenFocus> focus_target;         ///< what that of particles and slices moves to
   std::vector<ViewState> done, undone;             ///< states before, for undo and redo
   std::optional<Activity> opening;                 ///< reading and painting
   std::string message;                             ///< the last error or remark, one line

@@ -147,6 +147,7 @@ void Viewer::open(std::size_t item) {
   session_.zero_parallax_target_px.reset();
   session_.fixation.reset();
   session_.depth_around_target.reset();
+  session_.focus_target.reset();
   session_.state.depth_around.reset();
   session_.opening = Activity{"reading", 0};
   const std::uint64_t job = ++job_;
@@ -336,7 +337,7 @@ void Viewer::move_on() {
       session_.easing_s = click_easing_s;
     }
   }
-  move_depth_around(session_, passed_s);
+  move_gaze_depth(session_, passed_s);
   inputs_.go_on(session_, now);
   if (session_.state.mode == "wiggle" && now - wiggled_at_s_ >= step_of_wiggle_s) {
     ++session_.state.step;
@@ -350,7 +351,7 @@ std::optional<double> Viewer::next_step_s() const {
   if (film_s && input_s) return std::min(*film_s, *input_s);
   if (film_s || input_s) return film_s ? film_s : input_s;
   const bool particles_play = session_.film && session_.film->of_particles && session_.film->plays;
-  if (session_.zero_parallax_target_px || session_.depth_around_target || particles_play) return step_of_easing_s;
+  if (session_.zero_parallax_target_px || gaze_depth_moves(session_) || particles_play) return step_of_easing_s;
   if (session_.state.mode == "wiggle") return step_of_wiggle_s;
   if (session_.slideshow_s > 0 && !session_.opening)
     return std::max(shown_at_s_ + session_.slideshow_s - now_s(), step_of_easing_s);
@@ -396,7 +397,7 @@ void Viewer::post_frame(Frame frame, const Asked& asked) {
 
 bool Viewer::is_busy() const {
   return session_.opening || session_.whole_film || (player_ && player_->is_seeking()) ||
-         session_.zero_parallax_target_px || session_.depth_around_target || is_working() || is_saving() ||
+         session_.zero_parallax_target_px || gaze_depth_moves(session_) || is_working() || is_saving() ||
          !mailbox_.is_empty();
 }
 
@@ -439,7 +440,7 @@ void Viewer::wait() {
     if (!is_busy()) return;
     constexpr std::chrono::milliseconds step(10);
     // What eases moves on with time alone: each picture that is done would only ask for the next, a moment later.
-    if (session_.zero_parallax_target_px || session_.depth_around_target)
+    if (session_.zero_parallax_target_px || gaze_depth_moves(session_))
       std::this_thread::sleep_for(step);
     else
       mailbox_.wait_for(step);
