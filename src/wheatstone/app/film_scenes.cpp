@@ -4,6 +4,7 @@
 #include <cstring>
 #include <utility>
 
+#include "wheatstone/app/painted_film.h"
 #include "wheatstone/motion/flow.h"
 
 namespace wheatstone {
@@ -19,7 +20,7 @@ FilmScenes find_scenes(StereoFilmReader& film, const Ranks& ranks, const Progres
     const std::int64_t from = std::max<std::int64_t>(first - 1, 0);
     if (next < from) next += film.skip(from - next);
     for (; next >= from && next < first + run && film.read(frame); ++next) {
-      report(progress, "looking for cuts", 0);
+      report(progress, "looking for cuts", share_of_film(film.facts(), next));
       if (next > from && find_cut(before.left, frame.left).cut) cuts.push_back(next);
       std::swap(before, frame);
     }

@@ -38,6 +38,17 @@ TEST(ListShots, NamesEachShotAndShowsItsMiddleFrame) {
   EXPECT_TRUE(fs::exists(folder / "cuts_003.jpg"));
 }
 
+TEST(ListShots, TellsHowFarItHasLooked) {
+  const TemporaryFolder folder;
+  make_film_of_three_shots(folder / "a.mkv");
+  double farthest = 0;
+  list_shots({folder / "a.mkv", {}, StereoLayout::mono}, {}, folder / "cuts.toml",
+             [&](std::string_view step, double share) {
+               if (step == "looking for cuts") farthest = std::max(farthest, share);
+             });
+  EXPECT_NEAR(farthest, 11. / 12, 0.01);
+}
+
 TEST(ListShots, RefusesToOverwriteWhatMayHaveBeenEdited) {
   const TemporaryFolder folder;
   make_film_of_three_shots(folder / "a.mkv");

@@ -36,4 +36,10 @@ std::int64_t expected_frames(const FilmFacts& facts, const FilmReaderOptions& re
   return static_cast<std::int64_t>(std::ceil(frames / reading.every));
 }
 
+double share_of_film(const FilmFacts& facts, std::int64_t frames) {
+  const double all =
+      facts.frame_count ? static_cast<double>(*facts.frame_count) : facts.duration_s * facts.frame_rate.value();
+  return all > 0 ? std::min(static_cast<double>(frames) / all, 1.0) : 0;
+}
+
 }  // namespace wheatstone

@@ -27,4 +27,7 @@ std::vector<std::string> notes_on_reading(const FilmFacts& facts);
 /// How many frames there will be, as far as the film says; 0 where it does not.
 std::int64_t expected_frames(const FilmFacts& facts, const FilmReaderOptions& reading);
 
+/// How much of a film so many of its frames are, 0 to 1, for telling progress; 0 where it does not say how long it is.
+double share_of_film(const FilmFacts& facts, std::int64_t frames);
+
 }  // namespace wheatstone

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <limits>
 
+#include "wheatstone/app/painted_film.h"
 #include "wheatstone/error.h"
 #include "wheatstone/video/film_time.h"
 
@@ -61,7 +62,7 @@ std::vector<ShotPlace> find_places(std::span<const WrittenShot> shots, StereoFil
   // One frame more tells whether the film goes on.
   if (shots.back().last) last = std::max(last, *shots.back().last + 1);
   for (StereoFrame frame; (frames < last || !std::ranges::all_of(places, is_found)) && film.read(frame);) {
-    report(progress, "looking for the shots", 0);
+    report(progress, "looking for the shots", share_of_film(film.facts(), frames));
     ++frames;
     for (std::size_t i = 0; i < shots.size(); ++i) {
       look(shots[i].begin, frames, frame, places[i]);
@@ -191,7 +192,7 @@ std::vector<FilmShot> place_shots(std::span<const WrittenShot> shots, const Film
   std::size_t shot = 0;
   std::int64_t number = 0;
   for (StereoFrame frame; part.read(frame); ++number) {
-    report(progress, "looking for the shots", 0);
+    report(progress, "looking for the shots", share_of_film(part.facts(), number));
     const std::size_t before = shot;
     while (shot + 1 < shots.size() && places[shot + 1].pts <= frame.pts) ++shot;
     if (number == 0 || shot != before) {
