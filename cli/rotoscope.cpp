@@ -210,7 +210,7 @@ StereoFilmReader open_source(const RotoscopeArguments& arguments, const FilmFile
   const Rational rate = options.reading.sequence_rate;
   ModelFilm made = film_of_model_argument(film.film, arguments.model, arguments.motion, rate, session);
   options.known = std::move(made.known);
-  options.frames.carrying.length_tolerance = carried_on_models().length_tolerance;
+  options.frames.carrying.length_tolerance = length_tolerance_on_models;
   options.made_by += fmt::format(" of a model {}", recipe_of(arguments.model, arguments.motion, rate));
   for (const fs::path& file : {fs::path(arguments.motion.path), arguments.model.seen.model.choice.texture})
     if (!file.empty()) options.made_from.push_back(file);

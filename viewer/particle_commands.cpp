@@ -95,6 +95,9 @@ bool shows_light(const Viewer& viewer) {
   return shows_particles(viewer) && drawn_look(viewer.session().state.look) == Look::thesis;
 }
 
+/// A text, or what stands for none.
+std::string told_or(const char* none, const std::string& text) { return text.empty() ? none : text; }
+
 std::vector<Choice> colour_choices(const Viewer& /*viewer*/) {
   std::vector<Choice> choices{{"auto", "Automatic"}};
   for (const std::string_view name : colour_map_names()) choices.push_back({std::string(name), readable(name)});
@@ -122,10 +125,7 @@ constexpr Command particle_table[] = {
      "",
      set_colours,
      {.choices = colour_choices,
-      .now =
-          [](const Viewer& v) {
-            return v.session().state.look.colours.empty() ? std::string("auto") : v.session().state.look.colours;
-          }}},
+      .now = [](const Viewer& v) { return told_or("auto", v.session().state.look.colours); }}},
     {"coldest", "VALUE|auto", "Particles", "Temperature where the colours begin", "",
      [](Viewer& v, const Words& w) { set_limit(v, &ParticleLook::coldest, w[0]); }},
     {"hottest", "VALUE|auto", "Particles", "Temperature where the colours end", "",
@@ -286,9 +286,6 @@ std::string stretch_told(const Viewer& viewer) {
 std::vector<Choice> quantity_choices(const Viewer& /*viewer*/) {
   return {{"picture", "Mass, temperature"}, {"column-density", "Column density"}};
 }
-
-/// A text, or what stands for none.
-std::string told_or(const char* none, const std::string& text) { return text.empty() ? none : text; }
 
 std::string quantity_told(const Viewer& viewer) {
   return told_or("picture", viewer.session().state.look.choice.quantity);

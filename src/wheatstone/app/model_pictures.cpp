@@ -1,5 +1,7 @@
 #include "wheatstone/app/model_pictures.h"
 
+#include <tbb/parallel_for.h>
+
 #include <array>
 #include <cmath>
 #include <limits>
@@ -54,7 +56,7 @@ Flow flow_between(const SeenModel& from, const SeenModel& to) {
   const int width = from.left_depth.width(), height = from.left_depth.height();
   Flow flow{Image<float>(width, height, 0), Image<float>(width, height, 0)};
   const Camera& camera = to.scene.camera;
-  for (int y = 0; y < height; ++y)
+  tbb::parallel_for(0, height, [&](int y) {
     for (int x = 0; x < width; ++x) {
       const float depth = from.left_depth(x, y);
       if (std::isnan(depth)) continue;
@@ -77,6 +79,7 @@ Flow flow_between(const SeenModel& from, const SeenModel& to) {
       flow.x(x, y) = x_in_left(camera.centre_x_px + px_a_unit * along, disparity) - middle_x;
       flow.y(x, y) = camera.centre_y_px + px_a_unit * down - middle_y;
     }
+  });
   return flow;
 }
 
@@ -90,8 +93,7 @@ class SeenFrames {
     SeenModel& seen = kept_[static_cast<std::size_t>(number % 2)];
     if (seen.number == number) return seen;
     const int frame = static_cast<int>(number);
-    const CameraKey key = options_.path ? camera_at(*options_.path, share_of_frame(options_, frame)) : CameraKey();
-    const RenderParticlesOptions options = options_of_frame(options_, frame, key);
+    const RenderParticlesOptions options = options_of_frame(options_, frame, key_of_frame(options_, frame));
     seen = {.number = number, .scene = scene_of(model_, options)};
     RenderedModel rendered = render_before_wall(
         model_, seen.scene, {options.width, options.height, {left_eye, right_eye}}, options.rendering.method, {});
@@ -144,8 +146,6 @@ ModelPictures model_pictures(const ReadyModel& model, const RenderParticlesOptio
   }
   return made;
 }
-
-CarryOptions carried_on_models() { return {.length_tolerance = 1}; }
 
 ModelFilm film_of_model(ReadyModel model, ParticleFramesOptions options, Rational rate) {
   const PictureSize size{options.particles.width, options.particles.height};

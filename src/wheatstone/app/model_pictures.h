@@ -37,9 +37,9 @@ struct ModelFilm {
   std::function<KnownFrame(std::int64_t frame, const Image<Rgb8>& left)> known;
 };
 
-/// How strokes are carried in such a film: on surfaces that turn towards the eyes they grow, to twice their length, and
-/// on others they shrink.
-CarryOptions carried_on_models();
+/// CarryOptions::length_tolerance for such a film: on surfaces that turn towards the eyes strokes grow, to twice their
+/// length, and on others they shrink.
+inline constexpr float length_tolerance_on_models = 1;
 
 /// Renders frames when they are read. Of the options, those of the views' number and place have no effect. Throws as
 /// render_ready.

@@ -173,7 +173,7 @@ PaintedTurntable paint_turntable(const Model& model, int frames, bool anew) {
   ModelFilm made = film_of_model(ready(model), film, {24, 1});
   RotoscopeState state;
   RotoscopeOptions options{.style = style_by_name("impressionist"), .anew = anew};
-  options.carrying = carried_on_models();
+  options.carrying.length_tolerance = length_tolerance_on_models;
   PaintedTurntable result;
   TemporalError of_source, of_painting;
   Image<Rgb8> source_before, painted_before;

@@ -85,7 +85,7 @@ CloudStatistics ParticleFrames::held(CloudStatistics of_frame) const {
 }
 
 ParticleFrames::Moment ParticleFrames::moment_of(int number) const {
-  Moment moment{.key = options_.path ? camera_at(*options_.path, share_of_frame(options_, number)) : CameraKey()};
+  Moment moment{.key = key_of_frame(options_, number)};
   if (!series_) return moment;
   const std::vector<double>& times = series_->series().times;
   moment.time = moment.key.time.value_or(std::lerp(times.front(), times.back(), share_of_frame(options_, number)));
@@ -94,6 +94,10 @@ ParticleFrames::Moment ParticleFrames::moment_of(int number) const {
 
 double share_of_frame(const ParticleFramesOptions& film, int number) {
   return film.count > 1 ? static_cast<double>(number) / (film.count - 1) : 0;
+}
+
+CameraKey key_of_frame(const ParticleFramesOptions& film, int number) {
+  return film.path ? camera_at(*film.path, share_of_frame(film, number)) : CameraKey();
 }
 
 RenderParticlesOptions options_of_frame(const ParticleFramesOptions& film, int number, const CameraKey& key) {

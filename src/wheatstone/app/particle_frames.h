@@ -20,6 +20,9 @@ struct ParticleFramesOptions {
   std::optional<CameraPath> path;
 };
 
+/// The values of the camera's path at one of a film's frames; none where there is no path.
+CameraKey key_of_frame(const ParticleFramesOptions& film, int number);
+
 /// The options of one of a film's frames, with its camera. `key` is the path's at that frame.
 RenderParticlesOptions options_of_frame(const ParticleFramesOptions& film, int number, const CameraKey& key);
 

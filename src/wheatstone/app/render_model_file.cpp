@@ -89,9 +89,7 @@ ModelFrames frames_of_model(const std::filesystem::path& file, ParticleFramesOpt
   const auto model = std::make_shared<const ReadyModel>(ready_model(file, options.particles, progress));
   const int count = options.count;
   return {[model, options = std::move(options)](int number, const Progress& of_frame) {
-            const CameraKey key =
-                options.path ? camera_at(*options.path, share_of_frame(options, number)) : CameraKey();
-            return render_ready(*model, options_of_frame(options, number, key), of_frame);
+            return render_ready(*model, options_of_frame(options, number, key_of_frame(options, number)), of_frame);
           },
           count};
 }

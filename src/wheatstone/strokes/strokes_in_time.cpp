@@ -1,13 +1,10 @@
-
 #include "wheatstone/strokes/strokes_in_time.h"
 
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <cmath>
 #include <exception>
 #include <mutex>
-#include <optional>
 #include <span>
 #include <utility>
 
