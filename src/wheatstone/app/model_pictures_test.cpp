@@ -200,7 +200,7 @@ PaintedTurntable paint_turntable(const Model& model, int frames, bool anew) {
 
 TEST(ModelFilm, StrokesStickToAModelThatTurns) {
   for (const Model& model : {make_knot(5000), make_tree(5000)}) {
-    const PaintedTurntable painted = paint_turntable(model, 8, false), anew = paint_turntable(model, 3, true);
+    const PaintedTurntable painted = paint_turntable(model, 6, false), anew = paint_turntable(model, 2, true);
     EXPECT_GE(painted.survival, 0.92);
     EXPECT_LE(painted.worst_bare_share, 1e-3);
     EXPECT_LT(painted.of_painting, 0.6 * anew.of_painting);
