@@ -60,7 +60,13 @@ TEST_F(OpenModel, IsTheViewsOfTheCommandThatItTells) {
   EXPECT_NE(made[0], made[1]);
 }
 
-TEST_F(OpenModel, IsLookedAtWhereItIsSeen) {
+/// With both projections.
+class OpenModelSeen : public OpenModel, public testing::WithParamInterface<std::string> {};
+INSTANTIATE_TEST_SUITE_P(In, OpenModelSeen, testing::Values("perspective", "orthographic"),
+                         [](const auto& projection) { return projection.param; });
+
+TEST_P(OpenModelSeen, IsLookedAtWhereItIsSeen) {
+  run("projection " + GetParam());
   run("mode left");
   EXPECT_FALSE(seen_at(1, 1)) << "beside it";
   const std::optional<SeenPoint> before = seen_at(110, 70);

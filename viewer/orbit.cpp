@@ -39,15 +39,8 @@ OrbitedScene orbited_scene(const Content& content, const ViewState& state, const
 }
 
 std::array<float, 3> point_at_depth(const OrbitedScene& scene, const PlaceInView& place, float depth) {
-  const Camera& camera = scene.camera;
-  const float parallax = parallax_px(scene.mapping, depth), view = place.view.eye_separations();
-  const float right = (static_cast<float>(place.x) - view * parallax - camera.centre_x_px) / camera.focal_px;
-  const float down = (static_cast<float>(place.y) - camera.centre_y_px) / camera.focal_px;
-  std::array<float, 3> point{};
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    point[axis] =
-        camera.position[axis] + depth * (camera.forward[axis] + right * camera.right[axis] + down * camera.down[axis]);
-  return point;
+  const float shift_px = place.view.eye_separations() * parallax_px(scene.mapping, depth);
+  return wheatstone::point_at(scene.camera, static_cast<float>(place.x) - shift_px, static_cast<float>(place.y), depth);
 }
 
 std::optional<SeenPoint> point_at(const Viewer& viewer, const PlaceInView& place) {
@@ -72,8 +65,8 @@ std::array<float, 3> moved_look_at(const Content& content, const ViewState& stat
   const Camera camera = orbited_scene(content, state, rig).camera;
   std::array<float, 3> moved{}, from_camera{};
   for (std::size_t axis = 0; axis < 3; ++axis) from_camera[axis] = middle[axis] - camera.position[axis];
-  const float units_a_pixel =
-      std::inner_product(from_camera.begin(), from_camera.end(), camera.forward.begin(), 0.f) / camera.focal_px;
+  const float depth = std::inner_product(from_camera.begin(), from_camera.end(), camera.forward.begin(), 0.f);
+  const float units_a_pixel = 1 / (camera.focal_px * camera.nearness(depth));
   for (std::size_t axis = 0; axis < 3; ++axis)
     moved[axis] = middle[axis] - units_a_pixel * (static_cast<float>(x_px) * camera.right[axis] +
                                                   static_cast<float>(y_px) * camera.down[axis]);

@@ -156,11 +156,12 @@ std::optional<SeenPoint> particle_at(const Particles& particles, const Scene& sc
                                   cloud.z[i] - camera.position[2]};
     const float depth = dot(at, camera.forward);
     if (!(depth > camera.nearest_depth)) continue;
-    const float y = camera.centre_y_px + camera.focal_px * dot(at, camera.down) / depth - static_cast<float>(place.y);
+    const float px_a_unit = camera.focal_px * camera.nearness(depth);
+    const float y = camera.centre_y_px + px_a_unit * dot(at, camera.down) - static_cast<float>(place.y);
     if (std::abs(y) > reach_px) continue;
     const float parallax = parallax_px(scene.mapping, depth);
-    const float x = camera.centre_x_px + camera.focal_px * dot(at, camera.right) / depth + view * parallax -
-                    static_cast<float>(place.x);
+    const float x =
+        camera.centre_x_px + px_a_unit * dot(at, camera.right) + view * parallax - static_cast<float>(place.x);
     if (x * x + y * y > reach_px * reach_px) continue;
     float light = 1;
     if (!cloud.density.empty())

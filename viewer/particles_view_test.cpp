@@ -184,7 +184,13 @@ TEST_F(OpenParticles, KeepTheirExposureUntilAnotherIsAskedFor) {
   EXPECT_EQ(state().look.exposure, 0.25f);
 }
 
-TEST_F(OpenParticles, AreLookedAtWhereTheyAreSeen) {
+/// With both projections.
+class OpenParticlesSeen : public OpenParticles, public testing::WithParamInterface<std::string> {};
+INSTANTIATE_TEST_SUITE_P(In, OpenParticlesSeen, testing::Values("perspective", "orthographic"),
+                         [](const auto& projection) { return projection.param; });
+
+TEST_P(OpenParticlesSeen, AreLookedAtWhereTheyAreSeen) {
+  run("projection " + GetParam());
   run("mode left");
   const Particles& particles = *open_particles(viewer);
   // Where the particle far from the others is seen.
@@ -198,8 +204,9 @@ TEST_F(OpenParticles, AreLookedAtWhereTheyAreSeen) {
     seen[2] += from_camera * camera.forward[axis];
   }
   const Scene scene = particle_scene(particles, state(), eyes_of(viewer));
-  const double x = camera.centre_x_px + camera.focal_px * seen[0] / seen[2] - 0.5 * parallax_px(scene.mapping, seen[2]);
-  const double y = camera.centre_y_px + camera.focal_px * seen[1] / seen[2];
+  const float px_a_unit = camera.focal_px * camera.nearness(seen[2]);
+  const double x = camera.centre_x_px + px_a_unit * seen[0] - 0.5 * parallax_px(scene.mapping, seen[2]);
+  const double y = camera.centre_y_px + px_a_unit * seen[1];
   run(fmt::format("look-at-place {} {}", x, y));
   ASSERT_TRUE(state().orbit.look_at);
   for (std::size_t axis = 0; axis < 3; ++axis) EXPECT_NEAR((*state().orbit.look_at)[axis], single[axis], 0.05);

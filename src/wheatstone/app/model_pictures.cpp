@@ -39,17 +39,6 @@ struct SeenModel {
 float x_in_centre(float x, float disparity) { return x + left_eye.eye_separations() * disparity; }
 float x_in_left(float x, float disparity) { return x - left_eye.eye_separations() * disparity; }
 
-/// The point at a place of the central view, in scene units.
-std::array<float, 3> point_at(const Camera& camera, float x, float y, float depth) {
-  const float units_a_px = 1 / (camera.focal_px * camera.nearness(depth));
-  const float along = (x - camera.centre_x_px) * units_a_px, down = (y - camera.centre_y_px) * units_a_px;
-  std::array<float, 3> point{};
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    point[axis] =
-        camera.position[axis] + camera.right[axis] * along + camera.down[axis] * down + camera.forward[axis] * depth;
-  return point;
-}
-
 /// Where the points that the left eye sees in a frame are in its picture of another. The wall does not move; unknown
 /// are points that the other camera has behind it.
 Flow flow_between(const SeenModel& from, const SeenModel& to) {

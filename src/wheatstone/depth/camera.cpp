@@ -6,6 +6,16 @@
 
 namespace wheatstone {
 
+std::array<float, 3> point_at(const Camera& camera, float x, float y, float depth) {
+  const float units_a_px = 1 / (camera.focal_px * camera.nearness(depth));
+  const float along = (x - camera.centre_x_px) * units_a_px, down = (y - camera.centre_y_px) * units_a_px;
+  std::array<float, 3> point{};
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    point[axis] =
+        camera.position[axis] + camera.right[axis] * along + camera.down[axis] * down + camera.forward[axis] * depth;
+  return point;
+}
+
 void check_framing(const Framing& framing) {
   check_number("azimuth", framing.azimuth_deg, azimuth_range);
   check_number("elevation", framing.elevation_deg, elevation_range);

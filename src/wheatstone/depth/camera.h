@@ -27,6 +27,9 @@ struct Camera {
   float nearness(float depth) const { return 1 / (orthographic_depth > 0 ? orthographic_depth : depth); }
 };
 
+/// The point, in scene units, that is seen at a depth and a place of the reference view, in pixels.
+std::array<float, 3> point_at(const Camera& camera, float x, float y, float depth);
+
 /// From which side, and how much of it.
 struct Framing {
   float azimuth_deg = 30;        ///< around the vertical axis (z of the scene is up)
