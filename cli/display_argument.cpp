@@ -64,7 +64,9 @@ Rows film_display_rows(DisplayArguments& a, const Reasons& unless_display) {
                          "for the display's lenses:" +
                              display_names(is_for_films),
                          unless_display)};
-  return under("Display", join({display, display_view_rows(a)}));
+  const Rows framing{
+      framing_row(a.framing, "on the display", {when([&a] { return a.name.empty(); }, "without --display")})};
+  return under("Display", join({display, display_view_rows(a), framing}));
 }
 
 Value depth_regions(std::vector<DepthRegion>& regions) {

@@ -280,8 +280,8 @@ void Viewer::warn_of_depth() {
   const auto width = static_cast<float>(size_of(session_.opened.content).width);
   if (!depth || !session_.state.depth_regions.empty() || width <= 0) return;
   const float share = session_.state.adjustment.separation * (depth->nearest_px - depth->farthest_px) / width;
-  constexpr float rounding = 1.01f;
-  if (share > rounding * comfortable_parallax_share)
+  const auto as_told = [](float of_width) { return std::round(1000 * of_width); };
+  if (as_told(share) > as_told(comfortable_parallax_share))
     tell(fmt::format(
         "the depth is {:.1f} % of the width, more than the {:.0f} % that are comfortable; undo, or lower the "
         "separation",

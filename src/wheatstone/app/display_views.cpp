@@ -50,27 +50,6 @@ CoveredPart covered_by(PictureSize painting, const Placement& placement) {
       {.left = placement.left - (painting.width - shared) / 2, .top = placement.top, .scale = placement.scale});
 }
 
-/// The rest of the pictures is black.
-void put_bars(const DisplayPlan& plan, Presented& shown) {
-  const Placement& placement = plan.presentation.placement;
-  const CoveredPart& covered = plan.covered;
-  if (covered.left == 0 && covered.top == 0 && covered.right == placement.width && covered.bottom == placement.height)
-    return;
-  for (Image<Rgb8>& view : shown.views) put_bars(covered, view);
-  if (shown.composed.empty()) return;
-  const auto* const quilt = std::get_if<QuiltLayout>(&*plan.presentation.composition);
-  const int columns = quilt != nullptr ? quilt->columns : 1, rows = quilt != nullptr ? quilt->rows : 1;
-  const int width = shown.composed.width() / columns, height = shown.composed.height() / rows;
-  const auto scaled = [](int place, int of, int to) { return place * to / of; };
-  const CoveredPart part{scaled(covered.left, placement.width, width), scaled(covered.top, placement.height, height),
-                         scaled(covered.right, placement.width, width),
-                         scaled(covered.bottom, placement.height, height)};
-  for (int row = 0; row < rows; ++row)
-    for (int column = 0; column < columns; ++column)
-      put_bars(part, ImageView<Rgb8>(&shown.composed(column * width, row * height), width, height,
-                                     shown.composed.view().stride()));
-}
-
 /// A view shows a part of the painting, which is as wide as the screen.
 Painting with_placed_depth(const Painting& painting, const DisplayViewsOptions& options) {
   const Placement placement = placement_for({width_of(painting), height_of(painting)}, options, 0);
@@ -104,7 +83,8 @@ DisplayPlan plan_display(PictureSize painting, const DepthEnds& ends, const Disp
   plan.presentation = {.views = evenly_spaced(options.width, options.height, options.views, plan.span).positions,
                        .placement = placement,
                        .device = options.device};
-  plan.covered = covered_by(painting, placement);
+  const CoveredPart covered = covered_by(painting, placement);
+  if (covered != CoveredPart{0, 0, placement.width, placement.height}) plan.presentation.covered = covered;
   return plan;
 }
 
@@ -120,7 +100,6 @@ DisplayViews draw_display_views(const Painting& painting, const DisplayViewsOpti
   if (!composition) check_views_fit({options.width, options.height, result.plan.presentation.views});
   report(progress, "views", 0);
   result.shown = present(painting, result.plan.presentation);
-  put_bars(result.plan, result.shown);
   report(progress, "views", 1);
   return result;
 }

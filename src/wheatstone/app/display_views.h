@@ -35,7 +35,6 @@ struct DisplayPlan {
   Presentation presentation;
   float span = 0;              ///< eye separations between the outermost views, as chosen
   float zero_parallax_px = 0;  ///< in pixels of the painting
-  CoveredPart covered;         ///< of each view; the rest is black
 };
 
 /// Chooses the screen plane and the span for a painting of this size whose disparities, in its pixels, have these ends.

@@ -66,6 +66,19 @@ TEST(FilmDisplay, EachPlaceOfAQuiltShowsTheFramesPaintingFromThere) {
   }
 }
 
+TEST(FilmDisplay, AWholeFrameHasBarsThatAreNotUnpainted) {
+  RotoscopeOptions options = options_for(small_quilt());
+  options.display->views.framing.whole = true;
+  RotoscopeState state;
+  const RotoscopedFrame frame = rotoscope_frame(eyes_of_frame(0), options, state);
+  EXPECT_LT(frame.worst_bare_share, 0.05);
+  for (const Image<Rgb8>& tile : views_of_quilt(std::get<Image<Rgb8>>(frame.pictures), *options.display->quilt)) {
+    const auto is_black = [&](int y) { return std::ranges::count(tile.row(y), Rgb8{}) == tile.width(); };
+    EXPECT_TRUE(is_black(0) && is_black(8) && is_black(51) && is_black(59));
+    EXPECT_FALSE(is_black(16) || is_black(30) || is_black(43));
+  }
+}
+
 TEST(FilmDisplay, ViewsBesideTheEyesArePlannedFor) {
   RotoscopeState state;
   const RotoscopedFrame frame = rotoscope_frame(eyes_of_frame(0), options_for(small_quilt()), state);

@@ -26,6 +26,7 @@ namespace wheatstone {
 struct PlannedShowing {
   std::vector<ViewPosition> views;
   Placement placement;
+  std::optional<CoveredPart> covered;
   std::optional<QuiltLayout> quilt;
   std::optional<LenticularScreen> screen;
   Device device = Device::processor;

@@ -55,6 +55,9 @@ bool can_be_shown(const PlannedShowing& showing) {
                std::isfinite(placement.zero_parallax_px) && !(showing.quilt && showing.screen) &&
                showing.device <= Device::automatic;
   for (const ViewPosition view : showing.views) holds = holds && std::isfinite(view.eye_separations());
+  if (const auto& covered = showing.covered)
+    holds = holds && 0 <= covered->left && covered->left <= covered->right && covered->right <= placement.width &&
+            0 <= covered->top && covered->top <= covered->bottom && covered->bottom <= placement.height;
   if (const auto& quilt = showing.quilt)
     holds = holds && is_side(quilt->columns) && is_side(quilt->rows) &&
             std::size_t(quilt->columns) * std::size_t(quilt->rows) == showing.views.size();
@@ -84,6 +87,7 @@ PlannedShowing planned_showing(const FrameShowing& showing) {
   const Presentation& presentation = showing.presentation;
   PlannedShowing planned{.views = presentation.views,
                          .placement = presentation.placement,
+                         .covered = presentation.covered,
                          .quilt = {},
                          .screen = {},
                          .device = presentation.device,
@@ -106,7 +110,8 @@ FrameOfPlan read_frame(const fs::path& folder, const PlannedShowing& planned, co
                        std::int64_t number) {
   FrameOfPlan frame{read_painting(folder / marks_name(of, number)), {}};
   Presentation& presentation = frame.showing.presentation;
-  presentation = {.views = planned.views, .placement = planned.placement, .device = planned.device};
+  presentation = {
+      .views = planned.views, .placement = planned.placement, .covered = planned.covered, .device = planned.device};
   if (planned.quilt) presentation.composition = *planned.quilt;
   if (planned.screen) presentation.composition = *planned.screen;
   frame.showing.backgrounds = read_pictures(folder, of, number, static_cast<std::size_t>(planned.backgrounds));

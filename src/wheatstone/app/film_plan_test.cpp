@@ -108,7 +108,8 @@ TEST_F(PlannedFilmLong, ForEachEyeHasTheBytesOfOneRun) {
 TEST_F(PlannedFilm, OfPicturesAndOfADisplayHasTheBytesOfOneRun) {
   expect_same("o_%04d.png", {"o_0001.png", "o_0003.png", "o_0005.png"}, usual());
   RotoscopeFilmOptions options = usual();
-  options.frames.display = FilmDisplay{{.views = 4, .width = 42, .height = 56}, QuiltLayout{2, 2}, {}};
+  options.frames.display =
+      FilmDisplay{{.views = 4, .width = 42, .height = 56, .framing = {.whole = true}}, QuiltLayout{2, 2}, {}};
   options.writing.layout = StereoLayout::mono;
   expect_same("o.mp4", {"o.mp4"}, options);
 }

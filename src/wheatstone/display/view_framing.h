@@ -29,6 +29,7 @@ ShownPart shown_part(double picture_width, double picture_height, double frame_w
 /// The pixels of the frame that the picture covers: columns left to right, rows top to bottom, ends not included.
 struct CoveredPart {
   int left = 0, top = 0, right = 0, bottom = 0;
+  friend bool operator==(const CoveredPart&, const CoveredPart&) = default;
 };
 CoveredPart covered_part(double picture_width, double picture_height, int frame_width, int frame_height,
                          const ShownPart& part);

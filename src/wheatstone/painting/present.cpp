@@ -1,6 +1,7 @@
 #include "wheatstone/painting/present.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <memory>
 #include <utility>
 
@@ -34,18 +35,34 @@ std::optional<Presented> composed_on_gpu(const PreparedPainting& painting, const
   return presented;
 }
 
+/// The share of the pixels, 0..1, of the part that shows the painting.
+double bare_share_of(const DrawnView& view, const CoveredPart& covered) {
+  std::int64_t bare = 0;
+  for (int y = covered.top; y < covered.bottom; ++y) {
+    const auto row = view.bare.row(y);
+    bare += (covered.right - covered.left) - std::count(row.begin() + covered.left, row.begin() + covered.right, 0);
+  }
+  const double pixels = static_cast<double>(covered.right - covered.left) * (covered.bottom - covered.top);
+  return static_cast<double>(bare) / std::max(pixels, 1.0);
+}
+
 }  // namespace
 
 Presented present(const Painting& painting, const Presentation& presentation) {
   const PreparedPainting prepared = prepare(painting, {.placement = presentation.placement}, presentation.device);
   const std::optional<DisplayComposition>& composition = presentation.composition;
-  if (composition)
+  const std::optional<CoveredPart>& covered = presentation.covered;
+  if (composition && !covered)
     if (std::optional<Presented> presented = composed_on_gpu(prepared, presentation)) return *std::move(presented);
   Presented presented;
   const auto* const quilt = composition ? std::get_if<QuiltLayout>(&*composition) : nullptr;
   if (quilt != nullptr)
     presented.composed = Image<Rgb8>(quilt->columns * prepared.width(), quilt->rows * prepared.height());
   const ViewSink take = [&](std::size_t place, DrawnView view) {
+    if (covered) {
+      view.bare_share = bare_share_of(view, *covered);
+      put_bars(*covered, view.picture);
+    }
     presented.worst_bare_share = std::max(presented.worst_bare_share, view.bare_share);
     if (quilt != nullptr) return put_into_quilt(view.picture, static_cast<int>(place), *quilt, presented.composed);
     presented.bare_shares.push_back(view.bare_share);

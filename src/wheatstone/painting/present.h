@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "wheatstone/display/compose.h"
+#include "wheatstone/display/view_framing.h"
 #include "wheatstone/drawing/draw.h"
 
 namespace wheatstone {
@@ -13,6 +14,7 @@ namespace wheatstone {
 struct Presentation {
   std::vector<ViewPosition> views;
   Placement placement = {};
+  std::optional<CoveredPart> covered = {};              ///< of each view; the rest is black; none: all of it
   std::vector<ImageView<const Rgb8>> backgrounds = {};  ///< of each view, as `draw` takes them; none: the canvas colour
   std::optional<DisplayComposition> composition = {};   ///< of one picture of all views; none: a picture for each view
   Device device = Device::processor;
@@ -22,14 +24,15 @@ struct Presentation {
 struct Presented {
   std::vector<Image<Rgb8>> views;   ///< in the presentation's order; none where there is a composition
   Image<Rgb8> composed;             ///< empty where there is no composition
-  std::vector<double> bare_shares;  ///< of each of `views`: the share of pixels, 0..1, that marks cover less than half
+  std::vector<double> bare_shares;  ///< of each of `views`: the share of the pixels, 0..1, of its covered part that
+                                    ///< marks cover less than half
   double worst_bare_share = 0;      ///< of all views, composed or not
 };
 
 /// Draws a painting as a presentation wants it. A graphics processor that draws the views also composes them, in its
-/// own memory. For lenses, it draws only those pixels of strokes of which the screen shows something (Hassaine 2010,
-/// sec. 6.5.2); the worst bare share then refers to these pixels. If the processor draws a quilt, only a few views are
-/// in memory beside it. Throws as `prepare`, `draw` and `compose` do.
+/// own memory, unless a part of the views is black. For lenses, it draws only those pixels of strokes of which the
+/// screen shows something (Hassaine 2010, sec. 6.5.2); the worst bare share then refers to these pixels. If the
+/// processor draws a quilt, only a few views are in memory beside it. Throws as `prepare`, `draw` and `compose` do.
 Presented present(const Painting& painting, const Presentation& presentation);
 
 }  // namespace wheatstone
