@@ -27,7 +27,7 @@ elseif(CMAKE_UNITY_BUILD)
 endif()
 
 # Under sanitizers, code that computes little takes a third less time to compile when it is optimised less.
-set(wheatstone_rooms_around_computing app display models particles share study video)
+set(wheatstone_rooms_around_computing app display models share study video)
 function(wheatstone_check_quickly target)
   target_compile_options(${target} PRIVATE $<$<CONFIG:RelWithDebInfo>:-Og>)
 endfunction()
