@@ -171,6 +171,8 @@ TEST(FilmPlanFile, DamagedOrOfAnotherVersionIsRefused) {
   refused([](FrameInPlan& frame) { frame.shot.quilt = QuiltLayout{3, 1}; });
   refused([](FrameInPlan& frame) { frame.shot.placement.scale = std::numeric_limits<double>::infinity(); });
   refused([](FrameInPlan& frame) { frame.shot.placement.width = 1 << 30; });
+  refused([](FrameInPlan& frame) { frame.shot.covered = CoveredPart{0, 0, frame.shot.placement.width + 1, 0}; });
+  refused([](FrameInPlan& frame) { frame.shot.covered = CoveredPart{0, -1, 0, 0}; });
   refused([](FrameInPlan& frame) { frame.time_base.denominator = 0; });
   refused([](FrameInPlan& frame) { frame.outgoing = PlannedShowing(); });
   put_bytes(folder / "plan", whole);

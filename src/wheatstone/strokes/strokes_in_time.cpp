@@ -94,19 +94,19 @@ void carry(const FilmFrame& frame, const Style& style, const CarryOptions& optio
 /// Drops new strokes of the view `home` (numbers after `last_number`) that no view shows, because later they would
 /// appear all at once. In films, also drops new strokes of other views that the reference view shows whole: it has
 /// strokes of its own there, so that these would be dropped in the next frame, or begun again in every frame.
-void drop_needless(const FilmFrame& frame, std::size_t home, std::uint32_t last_number, float depth_threshold_px,
+void drop_needless(std::span<const View> views, std::size_t home, std::uint32_t last_number, float depth_threshold_px,
                    bool is_film, TrackedLayer& tracked) {
   std::vector<std::uint8_t> shown(tracked.tracks.size());
   tbb::parallel_for(std::size_t{0}, shown.size(), [&](std::size_t i) {
     const Stroke& stroke = tracked.layer.strokes[i];
     if (home != 0 && is_film && stroke.number > last_number &&
-        is_shown_whole(tracked.layer.points_of(stroke), stroke.radius_px, frame.views[home].position,
-                       {frame.views.front(), depth_threshold_px}))
+        is_shown_whole(tracked.layer.points_of(stroke), stroke.radius_px, views[home].position,
+                       {views.front(), depth_threshold_px}))
       return;
     shown[i] = stroke.number <= last_number ||
                std::ranges::any_of(tracked.layer.points_of(stroke), [&](const ControlPoint& point) {
-                 return std::ranges::any_of(frame.views, [&](const View& view) {
-                   return is_visible(point, frame.views[home].position, view, depth_threshold_px);
+                 return std::ranges::any_of(views, [&](const View& view) {
+                   return is_visible(point, views[home].position, view, depth_threshold_px);
                  });
                });
   });
@@ -228,7 +228,8 @@ CarriedPainting plan_strokes(const FilmFrame& frame, const Style& style, const C
     }
     for (TrackedLayer& tracked : memory.views[view]) {
       if (style.jitter == ColourJitter{}) drop_misplaced(own.position, frame.views, depth_threshold_px, tracked);
-      drop_needless(frame, view, memory.last_number, depth_threshold_px, options.goes_on || !scene_begins, tracked);
+      drop_needless(frame.views, view, memory.last_number, depth_threshold_px, options.goes_on || !scene_begins,
+                    tracked);
     }
   });
   result.counts.begun = count_new(memory);
