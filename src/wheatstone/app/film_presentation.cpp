@@ -28,6 +28,15 @@ FramePictures frame_pictures(Presented shown) {
   return StereoPair{std::move(shown.views.front()), std::move(shown.views.back())};
 }
 
+Presented presented(std::vector<DrawnView> drawn) {
+  Presented shown;
+  for (DrawnView& view : drawn) {
+    shown.worst_bare_share = std::max(shown.worst_bare_share, view.bare_share);
+    shown.views.push_back(std::move(view.picture));
+  }
+  return shown;
+}
+
 }  // namespace
 
 void follow_depth(const DepthEnds& frame, bool scene_begins, SceneDepth& scene) {
@@ -64,10 +73,10 @@ void dissolve_from(const Image<Rgb8>& outgoing, float share, Image<Rgb8>& pictur
   });
 }
 
-DrawnFrame draw_film_frame(const Painting& painting, const FrameShowing& showing) {
+DrawnFrame draw_film_frame(const Painting& painting, const FrameShowing& showing, std::vector<DrawnView> drawn) {
   Presentation presentation = showing.presentation;
   presentation.backgrounds.assign(showing.backgrounds.begin(), showing.backgrounds.end());
-  Presented shown = present(painting, presentation);
+  Presented shown = drawn.empty() ? present(painting, presentation) : presented(std::move(drawn));
   double worst_bare_share = shown.worst_bare_share;
   if (const auto& outside = showing.outside) {
     Presented painted;

@@ -70,9 +70,9 @@ struct DrawnFrame {
   double worst_bare_share = 0;  ///< of the pixels of an eye or a view, 0..1
 };
 
-/// Draws a frame, whose painting has all its marks. Frames are drawn in any order, with the same bytes. Throws as
-/// `present`.
-DrawnFrame draw_film_frame(const Painting& painting, const FrameShowing& showing);
+/// Draws a frame, whose painting has all its marks. Frames are drawn in any order, with the same bytes. `drawn` has the
+/// presentation's views where they are drawn already. Throws as `present`.
+DrawnFrame draw_film_frame(const Painting& painting, const FrameShowing& showing, std::vector<DrawnView> drawn = {});
 
 /// The sentence that a film's comment has if the eyes were moved together in this many frames, to no less than this
 /// separation; empty where there was none.

@@ -386,6 +386,7 @@ PlannedFilmFrame plan_film_frame(const StereoPair& photographed, const Rotoscope
     PlannedFrame planned = plan_marks(to_paint, task, result.eyes, options.style, state.memory);
     result.painting = std::move(planned.painting);
     result.counts = planned.counts;
+    result.drawn = std::move(planned.drawn);
   }
   result.showing = showing_of(task, result.eyes, state.depth);
   if (mask != nullptr) {
@@ -418,7 +419,7 @@ RotoscopedFrame rotoscope_frame(const StereoPair& photographed, const RotoscopeO
   RotoscopedFrame result{plan_film_frame(photographed, options, state, known, progress, mask), {}};
   report(progress, "drawing", 0);
   const Stopwatch watch(result.painting_times.rasterising_s);
-  DrawnFrame drawn = draw_film_frame(result.painting, result.showing);
+  DrawnFrame drawn = draw_film_frame(result.painting, result.showing, std::move(result.drawn));
   result.pictures = std::move(drawn.pictures);
   result.worst_bare_share = drawn.worst_bare_share;
   state.totals.worst_bare_share = std::max(state.totals.worst_bare_share, drawn.worst_bare_share);

@@ -112,6 +112,7 @@ struct RotoscopeTimes {
 struct PlannedFilmFrame {
   Painting painting;  ///< complete: with the marks that repair what the drawn frame would show wrongly
   FrameShowing showing;
+  std::vector<DrawnView> drawn;  ///< the presentation's views, where planning has drawn them
   StrokeCounts counts;
   StrokeChanges changes;  ///< from the frame before; nothing where a scene begins
   bool scene_begins = false;

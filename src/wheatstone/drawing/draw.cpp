@@ -55,7 +55,7 @@ void draw_some(const PreparedPainting::Contents& contents, std::span<const ViewT
 
 }  // namespace
 
-PreparedPainting::PreparedPainting(std::unique_ptr<const Contents> contents) : contents_(std::move(contents)) {}
+PreparedPainting::PreparedPainting(std::unique_ptr<Contents> contents) : contents_(std::move(contents)) {}
 PreparedPainting::PreparedPainting(PreparedPainting&&) noexcept = default;
 PreparedPainting& PreparedPainting::operator=(PreparedPainting&&) noexcept = default;
 PreparedPainting::~PreparedPainting() = default;
@@ -101,6 +101,14 @@ std::vector<DrawnView> draw(const PreparedPainting& painting, std::span<const Vi
 DrawnView draw(const PreparedPainting& painting, ViewPosition view, ImageView<const Rgb8> background) {
   return std::move(draw(painting, {&view, 1}, {&background, 1}).front());
 }
+
+void draw_over(PreparedPainting& painting, const Layer& strokes, ViewPosition view, ImageView<const Rgb8> background,
+               DrawnView& drawn) {
+  PreparedPainting::Contents& contents = painting.contents();
+  draw_marks_over(std::get<PreparedStrokes>(contents.marks), contents.surfaces, strokes, {view, background, drawn});
+}
+
+bool is_drawn_by_processor(const PreparedPainting& painting) { return painting.contents().on_gpu == nullptr; }
 
 std::optional<double> draw_on_gpu(const PreparedPainting& painting, std::span<const ViewPosition> views,
                                   const std::function<GpuViewSink(const GpuFacts&)>& make_sink) {

@@ -32,7 +32,7 @@ struct DrawOptions {
 class PreparedPainting {
  public:
   struct Contents;
-  explicit PreparedPainting(std::unique_ptr<const Contents> contents);
+  explicit PreparedPainting(std::unique_ptr<Contents> contents);
   PreparedPainting(PreparedPainting&&) noexcept;
   PreparedPainting& operator=(PreparedPainting&&) noexcept;
   ~PreparedPainting();
@@ -40,9 +40,10 @@ class PreparedPainting {
   int width() const;
   int height() const;
   const Contents& contents() const { return *contents_; }
+  Contents& contents() { return *contents_; }
 
  private:
-  std::unique_ptr<const Contents> contents_;
+  std::unique_ptr<Contents> contents_;
 };
 
 /// Does the work that all views of a painting share. A graphics processor keeps the painting until the prepared
@@ -70,6 +71,15 @@ using ViewSink = std::function<void(std::size_t place, DrawnView view)>;
 /// The same, but each view is passed to `take` when it is drawn: only a few views are in memory at a time.
 void draw(const PreparedPainting& painting, std::span<const ViewPosition> views, const ViewSink& take,
           std::span<const ImageView<const Rgb8>> backgrounds = {});
+
+/// Adds strokes on top of a prepared painting of strokes without relief, and draws a view again that `draw` gave, over
+/// the same background: the bands of rows that the strokes touch, on the processor. The same bytes as if the painting
+/// had had the strokes at the end of its last layer, where the processor drew the view, too.
+void draw_over(PreparedPainting& painting, const Layer& strokes, ViewPosition view, ImageView<const Rgb8> background,
+               DrawnView& drawn);
+
+/// Whether the processor draws the painting.
+bool is_drawn_by_processor(const PreparedPainting& painting);
 
 /// Prepares a painting and draws one view of it.
 DrawnView draw(const Painting& painting, ViewPosition view);

@@ -120,7 +120,9 @@ class BandOfViews {
         band_(number * band_rows, painting.width, painting.height),
         scratch_(band_.top, 0, painting.height),
         view_count_(view_count),
-        accumulators_(accumulators) {
+        accumulators_(accumulators),
+        part_row_(static_cast<std::size_t>(painting.width)),
+        part_bare_row_(part_row_.size()) {
     if (!accumulators_.empty() && accumulators_.front().rows() != band_.row_count) accumulators_.clear();
     for (const BandedLayer& layer : painting.layers) {
       PiecesOfLayer& of_layer = layers_.emplace_back();
@@ -139,11 +141,15 @@ class BandOfViews {
     }
   }
 
-  /// Draws some views, stroke by stroke, so that the stamp of a stroke is still in the cache for the next view.
-  void draw(std::span<const ViewToDraw> views, std::span<std::size_t> bare_pixels) {
+  /// Draws some views, stroke by stroke, so that the stamp of a stroke is still in the cache for the next view. With
+  /// `only_under_top`, draws only where strokes of the last layer may lie.
+  void draw(std::span<const ViewToDraw> views, bool only_under_top) {
     while (accumulators_.size() < views.size()) accumulators_.emplace_back(band_.row_count, painting_.width);
     std::vector<ViewAtWork> at_work;
-    for (std::size_t i = 0; i < views.size(); ++i) at_work.push_back(begin(views[i], accumulators_[i]));
+    for (std::size_t i = 0; i < views.size(); ++i) {
+      at_work.push_back(begin(views[i], accumulators_[i]));
+      if (only_under_top) open_under_top(at_work.back());
+    }
     for (std::size_t above = layers_.size(); above-- > 0;) {
       const std::vector<Piece>& pieces = layers_[above].pieces;
       for (std::size_t nearer = pieces.size(); nearer-- > 0;) {
@@ -159,7 +165,7 @@ class BandOfViews {
         draw_piece(above, others[nearer], at_work,
                    [](const ViewAtWork& view) -> const HiddenBelow& { return view.hides.gaps; });
     }
-    for (std::size_t i = 0; i < views.size(); ++i) bare_pixels[i] = finish(at_work[i]);
+    for (const ViewAtWork& view : at_work) finish(view);
   }
 
  private:
@@ -182,6 +188,7 @@ class BandOfViews {
     SeenSurfaces seen;
     BandHiding hides;
     FrontToBackAccumulator& accumulator;
+    Image<std::uint8_t> wanted = {};  ///< not 0 for the pixels that are drawn; empty: all are
   };
 
   ViewAtWork begin(const ViewToDraw& view, FrontToBackAccumulator& accumulator) const {
@@ -189,6 +196,17 @@ class BandOfViews {
     SeenSurfaces seen = seen_surfaces(surfaces_, view.position, {painting_.width, band_.top, band_.row_count});
     BandHiding hides(seen.hiding, band_, painting_.width);
     return {view, std::move(seen), std::move(hides), accumulator};
+  }
+
+  void open_under_top(ViewAtWork& at_work) const {
+    at_work.wanted = Image<std::uint8_t>(painting_.width, band_.row_count);
+    for (const Piece& piece : layers_.back().pieces) {
+      const auto [begin, end] = piece.columns_in(at_work.view.position - central_view, painting_.width);
+      if (begin >= end || !piece.views.contains(at_work.view.position)) continue;
+      for (std::uint32_t rows = piece.rows; rows != 0; rows &= rows - 1)
+        std::fill_n(&at_work.wanted(begin, std::countr_zero(rows)), end - begin, std::uint8_t{255});
+    }
+    for (int row = 0; row < band_.row_count; ++row) at_work.accumulator.open_only(row, at_work.wanted.row(row));
   }
 
   /// A piece that a view may see.
@@ -317,24 +335,31 @@ class BandOfViews {
                {wanted.rows, wanted.columns != nullptr ? &columns_of_stamp_ : nullptr}, scratch_, stamp, stamps_);
   }
 
-  std::size_t finish(const ViewAtWork& at_work) {
+  void finish(const ViewAtWork& at_work) {
     const ViewToDraw& view = at_work.view;
     const ImageView<const float> surface = at_work.seen.hiding.surface;
     const FrontToBackAccumulator& accumulator = at_work.accumulator;
-    std::size_t bare = 0;
     const bool is_opaque = view.background.empty() && !painting_.canvas_shows;
     for (int row = 0; row < band_.row_count; ++row) {
       const int y = band_.top + row;
       const std::span<Rgb8> picture = view.drawn.picture.row(y);
-      const FinishedRow finished =
-          finish_row(accumulator, row,
-                     {view.background.empty() ? std::span<const Rgb8>() : view.background.row(y),
-                      painting_.canvas_colour, is_opaque, painting_.bare_light, picture, view.drawn.bare.row(y)});
-      bare += finished.bare;
-      if (is_opaque && finished.has_gap)
+      const std::span<std::uint8_t> bare = view.drawn.bare.row(y);
+      const bool is_whole = at_work.wanted.empty();
+      const bool has_gap = finish_row(
+          accumulator, row,
+          {view.background.empty() ? std::span<const Rgb8>() : view.background.row(y), painting_.canvas_colour,
+           is_opaque, painting_.bare_light, is_whole ? picture : part_row_, is_whole ? bare : part_bare_row_});
+      if (!is_whole) {
+        const auto wanted = at_work.wanted.row(row);
+        for (std::size_t x = 0; x < wanted.size(); ++x) {
+          if (wanted[x] == 0) continue;
+          picture[x] = part_row_[x];
+          bare[x] = part_bare_row_[x];
+        }
+      } else if (is_opaque && has_gap) {
         continue_paint(accumulator, row, surface.empty() ? std::span<const float>() : surface.row(row), picture);
+      }
     }
-    return bare;
   }
 
   const PreparedStrokes& painting_;
@@ -349,6 +374,8 @@ class BandOfViews {
   std::array<ColumnRun, band_rows> columns_to_draw_;  ///< of the piece at hand, in the central view
   std::array<ColumnRun, band_rows> columns_of_stamp_;
   std::vector<FrontToBackAccumulator>& accumulators_;
+  std::vector<Rgb8> part_row_;
+  std::vector<std::uint8_t> part_bare_row_;
 };
 
 /// The number of views of a band that are drawn together, stroke by stroke: more would not stay in the second-level
@@ -367,6 +394,12 @@ float bare_light_of(const StrokePainting& painting) {
   return 1 - (opacity > 0 ? opacity : 1) / 2;
 }
 
+BandedLayer banded(const Layer& layer, int height, const Brush& brush) {
+  BandedLayer made{.flat = flatten(layer), .bands = {}, .brush = brush};
+  made.bands = strokes_by_band(made.flat, height);
+  return made;
+}
+
 }  // namespace
 
 PreparedStrokes prepare_marks(const StrokePainting& painting) {
@@ -374,11 +407,8 @@ PreparedStrokes prepare_marks(const StrokePainting& painting) {
                            painting.canvas_colour,  std::vector<BandedLayer>(painting.layers.size()),
                            bare_light_of(painting), painting.canvas_shows};
   tbb::parallel_for(std::size_t{0}, prepared.layers.size(), [&](std::size_t i) {
-    BandedLayer& layer = prepared.layers[i];
-    layer.flat = flatten(painting.layers[i]);
-    layer.bands = strokes_by_band(layer.flat, painting.height);
-    layer.brush = painting.brush;
-    if (i == 0) layer.brush = ground_brush(painting.brush);
+    prepared.layers[i] =
+        banded(painting.layers[i], painting.height, i == 0 ? ground_brush(painting.brush) : painting.brush);
   });
   return prepared;
 }
@@ -398,6 +428,30 @@ std::vector<int> bands_by_cost(const PreparedStrokes& painting) {
   return bands;
 }
 
+/// Draws bands of views that have their pictures.
+void draw_bands(const PreparedStrokes& painting, const Surfaces& surfaces, std::span<const ViewToDraw> views,
+                std::span<const int> bands, bool only_under_top = false) {
+  const std::size_t at_once = views_at_once(painting.width);
+  tbb::concurrent_queue<std::vector<FrontToBackAccumulator>> kept;  // reused, because fresh memory is slow
+  std::atomic<std::size_t> next = 0;
+  const auto draw_next = [&](const auto&) {
+    const int i = bands[next++];
+    std::vector<FrontToBackAccumulator> accumulators;
+    kept.try_pop(accumulators);
+    BandOfViews band(painting, surfaces, i, views.size(), accumulators);
+    for (std::size_t first = 0; first < views.size(); first += at_once)
+      band.draw(views.subspan(first, std::min(at_once, views.size() - first)), only_under_top);
+    kept.push(std::move(accumulators));
+  };
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, bands.size()), draw_next, tbb::simple_partitioner());
+  tbb::parallel_for(std::size_t{0}, views.size(), [&](std::size_t i) {
+    DrawnView& drawn = views[i].drawn;
+    const auto pixels = drawn.bare.pixels();
+    drawn.bare_share =
+        static_cast<double>(std::ranges::count(pixels, std::uint8_t{255})) / static_cast<double>(pixels.size());
+  });
+}
+
 }  // namespace
 
 void draw_marks(const PreparedStrokes& painting, const Surfaces& surfaces, std::span<const ViewToDraw> views) {
@@ -408,29 +462,19 @@ void draw_marks(const PreparedStrokes& painting, const Surfaces& surfaces, std::
     view.drawn.picture = Image<Rgb8>(painting.width, painting.height);
     view.drawn.bare = Image<std::uint8_t>(painting.width, painting.height);
   });
-  const std::vector<int> bands = bands_by_cost(painting);
-  const std::size_t at_once = views_at_once(painting.width);
-  std::vector<std::vector<std::size_t>> bare(bands.size(), std::vector<std::size_t>(views.size()));
-  tbb::concurrent_queue<std::vector<FrontToBackAccumulator>> kept;  // reused, because fresh memory is slow
-  std::atomic<std::size_t> next = 0;
-  const auto draw_next = [&](const auto&) {
-    const int i = bands[next++];
-    std::vector<FrontToBackAccumulator> accumulators;
-    kept.try_pop(accumulators);
-    BandOfViews band(painting, surfaces, i, views.size(), accumulators);
-    for (std::size_t first = 0; first < views.size(); first += at_once) {
-      const std::size_t count = std::min(at_once, views.size() - first);
-      band.draw(views.subspan(first, count), std::span(bare[static_cast<std::size_t>(i)]).subspan(first, count));
-    }
-    kept.push(std::move(accumulators));
-  };
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, bands.size()), draw_next, tbb::simple_partitioner());
-  for (std::size_t v = 0; v < views.size(); ++v) {
-    std::size_t bare_pixels = 0;
-    for (const std::vector<std::size_t>& of_band : bare) bare_pixels += of_band[v];
-    views[v].drawn.bare_share =
-        static_cast<double>(bare_pixels) / (static_cast<double>(painting.width) * painting.height);
-  }
+  draw_bands(painting, surfaces, views, bands_by_cost(painting));
+}
+
+void draw_marks_over(PreparedStrokes& painting, const Surfaces& surfaces, const Layer& strokes,
+                     const ViewToDraw& view) {
+  const Brush brush = painting.layers.back().brush;
+  const BandedLayer& added = painting.layers.emplace_back(banded(strokes, painting.height, brush));
+  std::vector<int> bands;
+  for (std::size_t band = 0; band < added.bands.size(); ++band)
+    if (!added.bands[band].empty()) bands.push_back(static_cast<int>(band));
+  // Gaps in opaque paint are filled from beside them, however far away that is.
+  const bool is_opaque = view.background.empty() && !painting.canvas_shows;
+  draw_bands(painting, surfaces, {&view, 1}, bands, !is_opaque);
 }
 
 }  // namespace wheatstone

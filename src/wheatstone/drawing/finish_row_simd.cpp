@@ -55,14 +55,14 @@ std::array<Channel, 3> behind(const RowToFinish& to, int first, int count) {
   return separated(last.data());
 }
 
-FinishedRow finish(const FrontToBackAccumulator& accumulator, int row, const RowToFinish& to) {
+bool finish(const FrontToBackAccumulator& accumulator, int row, const RowToFinish& to) {
   const Floats f;
   const hn::RebindToSigned<Floats> integers;
   const hn::Rebind<std::uint8_t, Floats> bytes;
   const int lanes = static_cast<int>(hn::Lanes(f)), width = accumulator.width();
   const auto bare_light = hn::Set(f, to.bare_light), gap_light = hn::Set(f, FrontToBackAccumulator::least_gap_light);
   const auto one = hn::Set(f, 1.f), half = hn::Set(f, 0.5f), white = hn::Set(f, 255.f);
-  FinishedRow finished;
+  bool has_gap = false;
   for (int number = 0; number < accumulator.block_count(); ++number) {
     const FrontToBackAccumulator::Block& block = accumulator.block(row, number);
     const int first = number * block_px, count = std::min(width - first, block_px);
@@ -85,8 +85,7 @@ FinishedRow finish(const FrontToBackAccumulator& accumulator, int row, const Row
       finish_channel(block.green, colours[1]);
       finish_channel(block.blue, colours[2]);
       const auto is_bare = hn::Gt(light, bare_light);
-      finished.bare += hn::CountTrue(f, is_bare);
-      finished.has_gap = finished.has_gap || !hn::AllFalse(f, hn::Ge(light, gap_light));
+      has_gap = has_gap || !hn::AllFalse(f, hn::Ge(light, gap_light));
       hn::StoreU(hn::DemoteTo(bytes, hn::ConvertTo(integers, hn::IfThenElseZero(is_bare, white))), bytes,
                  bare.data() + i);
     }
@@ -99,7 +98,7 @@ FinishedRow finish(const FrontToBackAccumulator& accumulator, int row, const Row
       std::copy_n(last.begin(), count, to.picture.begin() + first);
     }
   }
-  return finished;
+  return has_gap;
 }
 
 }  // namespace wheatstone::HWY_NAMESPACE
@@ -110,7 +109,7 @@ namespace wheatstone {
 
 HWY_EXPORT(finish);
 
-FinishedRow finish_row(const FrontToBackAccumulator& accumulator, int row, const RowToFinish& to) {
+bool finish_row(const FrontToBackAccumulator& accumulator, int row, const RowToFinish& to) {
   return HWY_DYNAMIC_DISPATCH(finish)(accumulator, row, to);
 }
 

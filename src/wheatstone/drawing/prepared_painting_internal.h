@@ -40,6 +40,8 @@ struct ViewToDraw {
 };
 
 void draw_marks(const PreparedStrokes& painting, const Surfaces& surfaces, std::span<const ViewToDraw> views);
+/// Adds a layer of strokes with the brush of the last one, and draws its bands again.
+void draw_marks_over(PreparedStrokes& painting, const Surfaces& surfaces, const Layer& strokes, const ViewToDraw& view);
 void draw_marks(const RegionPainting& painting, const Surfaces& surfaces, std::span<const ViewToDraw> views);
 void draw_marks(const PreparedLines& lines, const Surfaces& surfaces, std::span<const ViewToDraw> views);
 

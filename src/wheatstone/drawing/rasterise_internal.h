@@ -210,12 +210,8 @@ struct RowToFinish {
   std::span<std::uint8_t> bare;  ///< 255 for bare pixels
 };
 
-struct FinishedRow {
-  std::size_t bare = 0;  ///< pixels
-  bool has_gap = false;  ///< some pixels count as unpainted
-};
-
-FinishedRow finish_row(const FrontToBackAccumulator& accumulator, int row, const RowToFinish& to);
+/// Returns whether some pixels count as unpainted.
+bool finish_row(const FrontToBackAccumulator& accumulator, int row, const RowToFinish& to);
 
 /// A stroke of a layer as a view sees it, and what hides it in the band at hand.
 struct StrokeInBand {

@@ -341,6 +341,37 @@ TEST(Rasteriser, DrawsAViewAloneAsAmongMany) {
   }
 }
 
+void append(const Layer& strokes, Layer& layer) {
+  for (Stroke stroke : strokes.strokes) {
+    stroke.first_point += static_cast<std::uint32_t>(layer.points.size());
+    layer.strokes.push_back(stroke);
+  }
+  layer.points.insert(layer.points.end(), strokes.points.begin(), strokes.points.end());
+}
+
+TEST(Rasteriser, DrawsOverAViewWhatItDrawsWithAllStrokes) {
+  constexpr int width = 150, height = 90;
+  const Image<Rgb8> photograph(width, height, {20, 120, 220});
+  for (const ViewPosition view : {central_view, right_eye, ViewPosition(2.f)}) {
+    for (const auto& [background, canvas_shows] :
+         {std::pair{ImageView<const Rgb8>(photograph), false}, {ImageView<const Rgb8>(), true}, {{}, false}}) {
+      StrokePainting painting = painting_of(width, height, 0.6f);
+      painting.canvas_shows = canvas_shows;
+      PreparedPainting prepared = prepare(Painting{painting});
+      DrawnView drawn = draw(prepared, view, background);
+      for (const int count : {7, 1}) {
+        const Layer added = random_layer(width, height, count, 0.6f);
+        append(added, painting.layers.back());
+        draw_over(prepared, added, view, background, drawn);
+        const DrawnView whole = draw(prepare(Painting{painting}), view, background);
+        EXPECT_EQ(drawn.picture, whole.picture);
+        EXPECT_EQ(drawn.bare, whole.bare);
+        EXPECT_EQ(drawn.bare_share, whole.bare_share);
+      }
+    }
+  }
+}
+
 TEST(Rasteriser, DrawsLayerByLayerWhatItDrawsFromTheFront) {
   const StrokePainting painting = painting_of(200, 150, 0.6f);
   Canvas canvas(200, 150, painting.canvas_colour);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "wheatstone/curves/diffusion_in_time.h"
+#include "wheatstone/drawing/draw.h"
 #include "wheatstone/marks/painting.h"
 #include "wheatstone/motion/film_frame.h"
 #include "wheatstone/regions/mosaic.h"
@@ -20,6 +21,8 @@ struct PaintingMemory {
 struct PlannedFrame {
   Painting painting;
   StrokeCounts counts;
+  std::vector<DrawnView> drawn =
+      {};  ///< of the eyes or the one view, where these were drawn to plan it (plan_for_eyes)
 };
 
 /// Plans a frame of a film in any style; a still is a film of one frame. The marks of the reference view, which is the

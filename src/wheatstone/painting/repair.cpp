@@ -116,26 +116,6 @@ ImageView<const Rgb8> part_of(ImageView<const Rgb8> picture, Rows rows) {
   return {picture.row(rows.first).data(), picture.width(), rows.end - rows.first, picture.stride()};
 }
 
-/// Draws strokes over rows of a picture. No surface hides them, because they lie before everything around them.
-void draw_over(Layer strokes, Rows rows, ViewPosition position, DrawnView& drawn) {
-  for (ControlPoint& point : strokes.points) point.y -= static_cast<float>(rows.first);
-  Painting painting;
-  painting.marks =
-      StrokePainting{.width = drawn.picture.width(), .height = rows.end - rows.first, .layers = {std::move(strokes)}};
-  const DrawnView repaired = draw(prepare(painting), position, part_of(drawn.picture, rows));
-  std::int64_t covered = 0;
-  for (int y = rows.first; y < rows.end; ++y) {
-    std::ranges::copy(repaired.picture.row(y - rows.first), drawn.picture.row(y).begin());
-    const auto still_bare = repaired.bare.row(y - rows.first);
-    const auto bare = drawn.bare.row(y);
-    for (std::size_t x = 0; x < bare.size(); ++x) {
-      covered += bare[x] != 0 && still_bare[x] == 0 ? 1 : 0;
-      bare[x] &= still_bare[x];
-    }
-  }
-  drawn.bare_share -= static_cast<double>(covered) / static_cast<double>(drawn.bare.pixels().size());
-}
-
 /// The residual of some rows.
 Image<std::uint8_t> residual_in(Rows rows, const Image<Rgb8>& painted, ImageView<const Rgb8> target) {
   const int width = painted.width(), near_px = static_cast<int>(std::ceil(nearness_px(width)));
@@ -166,22 +146,23 @@ bool is_repaired_when_drawn(const Painting& painting, const Style& style) {
          painting.relief.depth_px <= 0;
 }
 
-void repair_drawn(std::span<ShownView> shown, ViewPosition reference, const Style& style, Painting& painting) {
+void repair_drawn(std::span<ShownView> shown, ViewPosition reference, const Style& style, Painting& painting,
+                  PreparedPainting& prepared) {
   constexpr int most_rounds = 3;  // dots may reach over their neighbours
   Style dots = style;             // the curve of longer strokes passes beside their points
   dots.max_length = 1;
   std::vector<Layer>& layers = std::get<StrokePainting>(painting.marks).layers;
-  for (auto& [view, drawn] : shown) {
+  for (auto& [view, background, drawn] : shown) {
     Image<std::uint8_t> places = residual(drawn.picture, view.colour);
     for (int round = 0; round < most_rounds; ++round) {
       remove_occlusion_specks(places, least_repaired_px);
       if (!has_any(places)) break;
       const Image<float> before = disparity_before(view.disparity, places);
-      Layer strokes = strokes_for(target_for(view, reference, places, before, painting.surfaces.tolerance_px), dots);
+      const Layer strokes =
+          strokes_for(target_for(view, reference, places, before, painting.surfaces.tolerance_px), dots);
       append_strokes(strokes, layers.back());
-      const Rows rows = rows_of(strokes, view.colour.height());
-      draw_over(std::move(strokes), rows, view.position, drawn);
-      places = residual_in(rows, drawn.picture, view.colour);
+      draw_over(prepared, strokes, view.position, background, drawn);
+      places = residual_in(rows_of(strokes, view.colour.height()), drawn.picture, view.colour);
     }
   }
 }

@@ -28,11 +28,13 @@ bool is_repaired_when_drawn(const Painting& painting, const Style& style);
 /// A view of a scene, drawn.
 struct ShownView {
   const View& view;
+  ImageView<const Rgb8> background;
   DrawnView drawn;
 };
 
-/// Adds strokes where pictures that were drawn show such colours, and draws them over the pictures. `reference` is the
-/// position of the scene's reference view.
-void repair_drawn(std::span<ShownView> shown, ViewPosition reference, const Style& style, Painting& painting);
+/// Adds strokes where pictures that were drawn show such colours, to the painting and to what was prepared of it, and
+/// draws them over the pictures. `reference` is the position of the scene's reference view.
+void repair_drawn(std::span<ShownView> shown, ViewPosition reference, const Style& style, Painting& painting,
+                  PreparedPainting& prepared);
 
 }  // namespace wheatstone
