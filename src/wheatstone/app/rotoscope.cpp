@@ -120,7 +120,8 @@ std::optional<MatchedPair> match_frame(const FrameTask& task, const MatchOptions
     const int width = static_cast<int>(eyes.left.width() * matching.size),
               height = static_cast<int>(eyes.left.height() * matching.size);
     std::optional<MatchedPair> matched =
-        match_near(eyes, expected_disparity(state.left_disparity_before, task.to_before, width, height), matching);
+        match_near(eyes, expected_disparity(state.left_disparity_before, task.to_before, width, height), matching,
+                   still_places(task.to_before, eyes.left.width(), width, height));
     if (matched && matched->left_found_share >= least_found_share) return matched;
   }
   std::optional<MatchedPair> matched = match_if_any(eyes, matching, task.progress);

@@ -103,6 +103,24 @@ Image<float> at_size(const Image<float>& disparity, cv::Size size, double scale)
   return result;
 }
 
+/// Keeps what was expected where nothing moves, unless what was found fits better. Elsewhere, what fits as well may lie
+/// beside a depth edge that has moved.
+void keep_where_still(const GreyPair& pair, const Image<float>& expected, ImageView<const std::uint8_t> still,
+                      Image<float>& disparity) {
+  constexpr float changed_px = 0.5f;
+  constexpr int noise = 1;
+  const cv::Mat misfit_of_expected = misfit(pair, expected), misfit_now = misfit(pair, disparity);
+  tbb::parallel_for(0, disparity.height(), [&](int y) {
+    const auto* of_expected = misfit_of_expected.ptr<std::uint8_t>(y);
+    const auto* now = misfit_now.ptr<std::uint8_t>(y);
+    const auto from = expected.row(y);
+    const auto to = disparity.row(y);
+    for (int x = 0; x < disparity.width(); ++x)
+      if (still(x, y) != 0 && std::abs(from[x] - to[x]) > changed_px && of_expected[x] <= now[x] + noise)
+        to[x] = from[x];
+  });
+}
+
 cv::Mat shrunk_to(const Image<Rgb8>& picture, cv::Size size) {
   cv::Mat small = as_mat(picture);
   if (small.size() != size) cv::resize(small, small, size, 0, 0, cv::INTER_AREA);
@@ -111,8 +129,8 @@ cv::Mat shrunk_to(const Image<Rgb8>& picture, cv::Size size) {
 
 }  // namespace
 
-std::optional<MatchedPair> match_near(const StereoPair& pair, const Image<float>& expected,
-                                      const MatchOptions& options) {
+std::optional<MatchedPair> match_near(const StereoPair& pair, const Image<float>& expected, const MatchOptions& options,
+                                      ImageView<const std::uint8_t> still) {
   const int width = pair.left.width(), height = pair.left.height();
   const cv::Size size(static_cast<int>(width * options.size), static_cast<int>(height * options.size));
   const double scale = static_cast<double>(size.width) / width;
@@ -131,7 +149,8 @@ std::optional<MatchedPair> match_near(const StereoPair& pair, const Image<float>
   cv::cvtColor(level.right, grey.right, cv::COLOR_RGB2GRAY);
   guess.misfit = misfit(grey, guess.disparity);
   constexpr int noise = 2;
-  improve(grey, at_size(expected, size, scale), -noise, guess);
+  const Image<float> expected_here = at_size(expected, size, scale);
+  improve(grey, expected_here, -noise, guess);
   look_beyond_edges(grey, guess);
 
   const BandMatch match = match_semi_global(level.left, level.right, band_around(guess.disparity));
@@ -144,6 +163,7 @@ std::optional<MatchedPair> match_near(const StereoPair& pair, const Image<float>
   constexpr int median_px = 5;
   const cv::Mat filled = as_mat(disparity).clone();
   cv::medianBlur(filled, as_mat(disparity), median_px);
+  if (!still.empty()) keep_where_still(grey, expected_here, still, disparity);
   if (size.width != width) disparity = at_size(disparity, {width, height}, 1 / scale);
   matched.geometry = geometry_from_left(std::move(disparity));
   return matched;

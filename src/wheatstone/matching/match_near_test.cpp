@@ -6,8 +6,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <string>
 
+#include "scenes/spoiled_pair.h"
 #include "scenes/still_life.h"
 
 namespace wheatstone::match_near_test {
@@ -49,6 +52,22 @@ TEST_F(MatchNear, FindsWhatIsExpectedWronglyOrNotAtAll) {
   // Nearer than the band's half; what leads to it is the coarse copy alone.
   EXPECT_LE(error_of(wrong), 1.5 * right);
   EXPECT_LE(error_of(Image<float>(480, 320, std::numeric_limits<float>::quiet_NaN())), 1.5 * right);
+}
+
+TEST_F(MatchNear, ChangesFewPixelsWhereNoiseAloneChanges) {
+  const StereoPair noisy = spoiled::noised(still_.pictures, 3);
+  const Image<float> before =
+      match_near(still_.pictures, still_.geometry.left_disparity, options_)->geometry.left_disparity;
+  const auto changed_share = [&](const Image<std::uint8_t>& still) {
+    const Image<float> now = match_near(noisy, before, options_, still)->geometry.left_disparity;
+    double changed = 0;
+    for (std::size_t i = 0; i < now.pixels().size(); ++i)
+      changed += std::abs(now.pixels()[i] - before.pixels()[i]) > 1 ? 1 : 0;
+    return changed / static_cast<double>(now.pixels().size());
+  };
+  const double still = changed_share(Image<std::uint8_t>(480, 320, 255)), moving = changed_share({});
+  RecordProperty("changed", std::to_string(still) + " " + std::to_string(moving));
+  EXPECT_LE(still, 0.25 * moving);
 }
 
 TEST_F(MatchNear, FindsNothingInBlackAndInTinyPictures) {

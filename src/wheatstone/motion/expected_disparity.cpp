@@ -33,4 +33,15 @@ Image<float> expected_disparity(const Image<float>& before, const Flow& to_befor
   return result;
 }
 
+Image<std::uint8_t> still_places(const Flow& to_before, int frame_width, int width, int height) {
+  constexpr double still_px = 0.5;
+  const double longest = still_px * to_before.x.width() / frame_width;
+  cv::Mat length;
+  cv::magnitude(as_mat(to_before.x), as_mat(to_before.y), length);
+  Image<std::uint8_t> places(width, height);
+  cv::Mat target = as_mat(places);
+  cv::resize(length < longest, target, target.size(), 0, 0, cv::INTER_NEAREST);
+  return places;
+}
+
 }  // namespace wheatstone

@@ -9,4 +9,7 @@ namespace wheatstone {
 /// picture or is unknown.
 Image<float> expected_disparity(const Image<float>& before, const Flow& to_before, int width, int height);
 
+/// 255 where nothing moves: where the flow is shorter than half a pixel of a frame of `frame_width` pixels.
+Image<std::uint8_t> still_places(const Flow& to_before, int frame_width, int width, int height);
+
 }  // namespace wheatstone

@@ -23,6 +23,16 @@ TEST(ExpectedDisparity, MovesWithTheFlow) {
   EXPECT_TRUE(std::isnan(expected(7, 2))) << "the flow leads out of the picture";
 }
 
+TEST(StillPlaces, AreWhereTheFlowIsShort) {
+  Flow to_before{Image<float>(4, 2, 0.2f), Image<float>(4, 2, 0.1f)};  // of frames of twice the size
+  to_before.x(1, 0) = -0.3f;
+  const Image<std::uint8_t> still = still_places(to_before, 8, 8, 4);
+  EXPECT_EQ(still(0, 0), 255);
+  EXPECT_EQ(still(2, 0), 0);
+  EXPECT_EQ(still(3, 1), 0);
+  EXPECT_EQ(still(3, 2), 255);
+}
+
 constexpr int width = 240, height = 136;
 
 std::vector<SyntheticFilmFrame> film_of(FilmScene scene) {
@@ -48,9 +58,9 @@ void expect_as_good_as_alone(const std::vector<SyntheticFilmFrame>& film) {
   Image<float> disparity = match(film.front().pictures, options).geometry.left_disparity;
   for (std::size_t i = 1; i < film.size(); ++i) {
     const FrameChange change = find_cut(film[i - 1].pictures.left, film[i].pictures.left);
-    disparity =
-        match_near(film[i].pictures, expected_disparity(disparity, change.flow.backward, width, height), options)
-            ->geometry.left_disparity;
+    disparity = match_near(film[i].pictures, expected_disparity(disparity, change.flow.backward, width, height),
+                           options, still_places(change.flow.backward, width, width, height))
+                    ->geometry.left_disparity;
   }
   const Image<float>& truth = film.back().geometry.left_disparity;
   EXPECT_LE(mean_error(disparity, truth),
