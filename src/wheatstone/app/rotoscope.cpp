@@ -34,6 +34,7 @@ struct FrameTask {
   const Progress& progress;
   Flow to_before = {};  ///< of the left eye, in pixels of a small copy; empty where none is known
   int reduction = 1;    ///< of `eyes`, and of all that is found in them
+  bool is_lit_as_before = true;
 };
 
 /// A frame as it is painted from.
@@ -119,9 +120,10 @@ std::optional<MatchedPair> match_frame(const FrameTask& task, const MatchOptions
   if (follows && state.frames_of_scene > 0 && !task.to_before.x.empty()) {
     const int width = static_cast<int>(eyes.left.width() * matching.size),
               height = static_cast<int>(eyes.left.height() * matching.size);
-    std::optional<MatchedPair> matched =
-        match_near(eyes, expected_disparity(state.left_disparity_before, task.to_before, width, height), matching,
-                   still_places(task.to_before, eyes.left.width(), width, height));
+    Image<std::uint8_t> still;
+    if (task.is_lit_as_before) still = still_places(task.to_before, eyes.left.width(), width, height);
+    std::optional<MatchedPair> matched = match_near(
+        eyes, expected_disparity(state.left_disparity_before, task.to_before, width, height), matching, still);
     if (matched && matched->left_found_share >= least_found_share) return matched;
   }
   std::optional<MatchedPair> matched = match_if_any(eyes, matching, task.progress);
@@ -151,8 +153,25 @@ StereoGeometry find_geometry(const FrameTask& task, RotoscopeState& state) {
 /// A frame that is looked at first.
 struct FirstLook {
   StereoPair eyes;
-  Flow to_before;  ///< as in FrameTask
+  Flow to_before;                ///< as in FrameTask
+  bool is_lit_as_before = true;  ///< as in FrameTask
 };
+
+/// The mean of a picture's channels in every eighth row.
+double mean_level(const Image<Rgb8>& picture) {
+  constexpr int step = 8;
+  std::int64_t sum = 0, count = 0;
+  for (int y = 0; y < picture.height(); y += step)
+    for (const Rgb8& colour : picture.row(y)) sum += colour.r + colour.g + colour.b, count += 3;
+  return static_cast<double>(sum) / static_cast<double>(std::max<std::int64_t>(count, 1));
+}
+
+/// Whether a frame is as bright as the one before. While a scene fades in, its depth is seen better from frame to
+/// frame.
+bool is_lit_alike(const Image<Rgb8>& before, const Image<Rgb8>& now) {
+  constexpr double alike = 0.5;  // of 0..255
+  return std::abs(mean_level(before) - mean_level(now)) <= alike;
+}
 
 /// Tells whether a scene begins, by a cut in the frames as they come if nobody says it. Also returns the flow to the
 /// previous frame if the detection needed it.
@@ -180,6 +199,7 @@ FirstLook rectify_frame(const FrameTask& photographed, RotoscopeState& state, Pl
   const StereoPair& eyes = photographed.eyes;
   FirstLook frame;
   result.scene_begins = tells_cut_of(photographed, state, frame.to_before);
+  frame.is_lit_as_before = !result.scene_begins && is_lit_alike(state.left_before, eyes.left);
   if (result.scene_begins) begin_scene(state);
   frame.eyes = eyes;
   if (eyes.right.empty() || photographed.known != nullptr) return frame;
@@ -367,8 +387,14 @@ PlannedFilmFrame plan_film_frame(const StereoPair& photographed, const Rotoscope
   const bool is_smaller = options.at_half_size && mask == nullptr && known == nullptr &&
                           may_be_planned_at_half_size(options.style, eyes.left.width());
   const StereoPair smaller = is_smaller ? at_half_size(eyes) : StereoPair();
-  const FrameTask task{eyes,     is_smaller ? smaller : eyes, options,           known,
-                       progress, std::move(first.to_before),  is_smaller ? 2 : 1};
+  const FrameTask task{eyes,
+                       is_smaller ? smaller : eyes,
+                       options,
+                       known,
+                       progress,
+                       std::move(first.to_before),
+                       is_smaller ? 2 : 1,
+                       first.is_lit_as_before};
   FrameAtWork frame = look_at(task, state, result.times);
   find_views(task, result.scene_begins, state, frame);
   const bool carries = !result.scene_begins && !options.anew;
