@@ -367,6 +367,16 @@ void accumulate_statistics(const RotoscopeOptions& options, RotoscopeState& stat
   state.layers_before.assign(layers.begin(), layers.end());
 }
 
+/// Keeps what the next frame is compared with.
+void remember(const Image<Rgb8>& left, FrameAtWork frame, RotoscopeState& state) {
+  ++state.frames;
+  ++state.frames_of_scene;
+  state.left_before = left;
+  state.left_disparity_before = std::move(frame.geometry.left_disparity);
+  state.central_before = std::move(frame.centre.picture);
+  state.central_disparity_before = std::move(frame.centre.disparity);
+}
+
 }  // namespace
 
 PlannedFilmFrame plan_film_frame(const StereoPair& photographed, const RotoscopeOptions& options, RotoscopeState& state,
@@ -425,12 +435,7 @@ PlannedFilmFrame plan_film_frame(const StereoPair& photographed, const Rotoscope
   }
   accumulate_statistics(options, state, result);
 
-  ++state.frames;
-  ++state.frames_of_scene;
-  state.left_before = photographed.left;
-  state.left_disparity_before = std::move(frame.geometry.left_disparity);
-  state.central_before = std::move(frame.centre.picture);
-  state.central_disparity_before = std::move(frame.centre.disparity);
+  remember(photographed.left, std::move(frame), state);
   return result;
 }
 
