@@ -199,10 +199,10 @@ FirstLook rectify_frame(const FrameTask& photographed, RotoscopeState& state, Pl
   const StereoPair& eyes = photographed.eyes;
   FirstLook frame;
   result.scene_begins = tells_cut_of(photographed, state, frame.to_before);
-  frame.is_lit_as_before = !result.scene_begins && is_lit_alike(state.left_before, eyes.left);
   if (result.scene_begins) begin_scene(state);
   frame.eyes = eyes;
   if (eyes.right.empty() || photographed.known != nullptr) return frame;
+  frame.is_lit_as_before = is_lit_alike(state.left_before, eyes.left);
   if (!state.rectification.measured && looks_again(state.frames_of_scene)) {
     MeasuredScene scene = measure_scene(eyes, photographed.options.rectify, photographed.progress);
     if (!scene.rectification.measured) return frame;

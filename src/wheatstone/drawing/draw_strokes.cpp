@@ -105,6 +105,11 @@ struct PiecesOfLayer {
   std::vector<Stamp> stamps_between;  ///< half a pixel to the side
 };
 
+/// Whether nothing shows through thin paint.
+bool is_opaque(const PreparedStrokes& painting, const ViewToDraw& view) {
+  return view.background.empty() && !painting.canvas_shows;
+}
+
 /// One band of a painting, drawn for many views: the parts of strokes in it are made once, when a view first needs
 /// them.
 class BandOfViews {
@@ -120,9 +125,7 @@ class BandOfViews {
         band_(number * band_rows, painting.width, painting.height),
         scratch_(band_.top, 0, painting.height),
         view_count_(view_count),
-        accumulators_(accumulators),
-        part_row_(static_cast<std::size_t>(painting.width)),
-        part_bare_row_(part_row_.size()) {
+        accumulators_(accumulators) {
     if (!accumulators_.empty() && accumulators_.front().rows() != band_.row_count) accumulators_.clear();
     for (const BandedLayer& layer : painting.layers) {
       PiecesOfLayer& of_layer = layers_.emplace_back();
@@ -335,31 +338,41 @@ class BandOfViews {
                {wanted.rows, wanted.columns != nullptr ? &columns_of_stamp_ : nullptr}, scratch_, stamp, stamps_);
   }
 
-  void finish(const ViewAtWork& at_work) {
-    const ViewToDraw& view = at_work.view;
+  void finish(const ViewAtWork& at_work) const {
+    if (!at_work.wanted.empty()) return finish_wanted(at_work);
     const ImageView<const float> surface = at_work.seen.hiding.surface;
-    const FrontToBackAccumulator& accumulator = at_work.accumulator;
-    const bool is_opaque = view.background.empty() && !painting_.canvas_shows;
     for (int row = 0; row < band_.row_count; ++row) {
-      const int y = band_.top + row;
-      const std::span<Rgb8> picture = view.drawn.picture.row(y);
-      const std::span<std::uint8_t> bare = view.drawn.bare.row(y);
-      const bool is_whole = at_work.wanted.empty();
-      const bool has_gap = finish_row(
-          accumulator, row,
-          {view.background.empty() ? std::span<const Rgb8>() : view.background.row(y), painting_.canvas_colour,
-           is_opaque, painting_.bare_light, is_whole ? picture : part_row_, is_whole ? bare : part_bare_row_});
-      if (!is_whole) {
-        const auto wanted = at_work.wanted.row(row);
-        for (std::size_t x = 0; x < wanted.size(); ++x) {
-          if (wanted[x] == 0) continue;
-          picture[x] = part_row_[x];
-          bare[x] = part_bare_row_[x];
-        }
-      } else if (is_opaque && has_gap) {
-        continue_paint(accumulator, row, surface.empty() ? std::span<const float>() : surface.row(row), picture);
+      const std::span<Rgb8> picture = at_work.view.drawn.picture.row(band_.top + row);
+      const bool has_gap = finish_row_of(at_work, row, picture, at_work.view.drawn.bare.row(band_.top + row));
+      if (is_opaque(painting_, at_work.view) && has_gap)
+        continue_paint(at_work.accumulator, row, surface.empty() ? std::span<const float>() : surface.row(row),
+                       picture);
+    }
+  }
+
+  /// Leaves the other pixels as they are.
+  void finish_wanted(const ViewAtWork& at_work) const {
+    std::vector<Rgb8> picture_row(static_cast<std::size_t>(painting_.width));
+    std::vector<std::uint8_t> bare_row(picture_row.size());
+    for (int row = 0; row < band_.row_count; ++row) {
+      finish_row_of(at_work, row, picture_row, bare_row);
+      const auto wanted = at_work.wanted.row(row);
+      const auto picture = at_work.view.drawn.picture.row(band_.top + row);
+      const auto bare = at_work.view.drawn.bare.row(band_.top + row);
+      for (std::size_t x = 0; x < wanted.size(); ++x) {
+        if (wanted[x] == 0) continue;
+        picture[x] = picture_row[x];
+        bare[x] = bare_row[x];
       }
     }
+  }
+
+  bool finish_row_of(const ViewAtWork& at_work, int row, std::span<Rgb8> picture, std::span<std::uint8_t> bare) const {
+    const ImageView<const Rgb8> background = at_work.view.background;
+    return finish_row(
+        at_work.accumulator, row,
+        {background.empty() ? std::span<const Rgb8>() : background.row(band_.top + row), painting_.canvas_colour,
+         is_opaque(painting_, at_work.view), painting_.bare_light, picture, bare});
   }
 
   const PreparedStrokes& painting_;
@@ -374,8 +387,6 @@ class BandOfViews {
   std::array<ColumnRun, band_rows> columns_to_draw_;  ///< of the piece at hand, in the central view
   std::array<ColumnRun, band_rows> columns_of_stamp_;
   std::vector<FrontToBackAccumulator>& accumulators_;
-  std::vector<Rgb8> part_row_;
-  std::vector<std::uint8_t> part_bare_row_;
 };
 
 /// The number of views of a band that are drawn together, stroke by stroke: more would not stay in the second-level
@@ -473,8 +484,7 @@ void draw_marks_over(PreparedStrokes& painting, const Surfaces& surfaces, const 
   for (std::size_t band = 0; band < added.bands.size(); ++band)
     if (!added.bands[band].empty()) bands.push_back(static_cast<int>(band));
   // Gaps in opaque paint are filled from beside them, however far away that is.
-  const bool is_opaque = view.background.empty() && !painting.canvas_shows;
-  draw_bands(painting, surfaces, {&view, 1}, bands, !is_opaque);
+  draw_bands(painting, surfaces, {&view, 1}, bands, !is_opaque(painting, view));
 }
 
 }  // namespace wheatstone

@@ -21,8 +21,7 @@ struct PaintingMemory {
 struct PlannedFrame {
   Painting painting;
   StrokeCounts counts;
-  std::vector<DrawnView> drawn =
-      {};  ///< of the eyes or the one view, where these were drawn to plan it (plan_for_eyes)
+  std::vector<DrawnView> drawn = {};  ///< of the eyes, or the one view, where plan_for_eyes drew them
 };
 
 /// Plans a frame of a film in any style; a still is a film of one frame. The marks of the reference view, which is the

@@ -10,7 +10,6 @@
 #include <utility>
 #include <vector>
 
-#include "largest_difference.h"
 #include "scenes/painted_frame.h"
 #include "wheatstone/drawing/draw.h"
 #include "wheatstone/marks/residual.h"
