@@ -27,7 +27,8 @@ Rows film_coding_rows(FilmWriterOptions& writing) {
           "Constant rate factor of h264 and hevc, to 51, and of av1 and vp9, to 63: 0 is the best quality"),
       row("--preset", text(writing.preset), "Encoder preset of these codecs, from ultrafast to placebo"),
       row("--pixel-format", without_default(text(writing.pixel_format)),
-          "yuv420p, yuv422p, yuv444p; yuv420p10le and so on with 10 bits; bgr0 for ffv1")};
+          "yuv420p, yuv422p, yuv444p; yuv420p10le and so on with 10 bits; for ffv1 also bgr0 and, with 16 bits, "
+          "gbrp16le")};
 }
 
 Row projection_row(FilmWriterOptions& writing, Reasons unless) {

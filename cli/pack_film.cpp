@@ -73,7 +73,7 @@ Report run_pack_film(PackFilmArguments arguments, const Session& session) {
   }
   for (const fs::path& output : {fs::path(arguments.output), options.right_film})
     if (!output.empty()) check_not_an_input(output, std::array{film.film, film.right});
-  const FilmReaderOptions reading{.threads = session.threads};
+  const FilmReaderOptions reading{.threads = session.threads, .deep = writes_deep(arguments.output, arguments.writing)};
   StereoFilmReader source = open_film(film, reading);
   if (source.layout() == StereoLayout::mono && film.right.empty())
     throw Error(ErrorKind::bad_input,

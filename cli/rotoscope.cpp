@@ -244,8 +244,11 @@ FilmFiles films_from(const RotoscopeArguments& arguments) {
 }
 
 FilmReaderOptions reading_options(const RotoscopeArguments& arguments, const FilmFiles& film, const Session& session) {
-  FilmReaderOptions reading{
-      .from_s = arguments.from_s, .to_s = arguments.to_s, .every = arguments.frame_step, .threads = session.threads};
+  FilmReaderOptions reading{.from_s = arguments.from_s,
+                            .to_s = arguments.to_s,
+                            .every = arguments.frame_step,
+                            .threads = session.threads,
+                            .deep = arguments.options.frames.deep};
   if (!arguments.rate) return reading;
   if (!is_of_model(arguments) && !frame_pattern(film.film))
     throw Error(ErrorKind::wrong_usage, "--rate: a film says its own, expected numbered pictures or a model");
@@ -302,6 +305,8 @@ Report run_rotoscope(const RotoscopeArguments& given, const Session& session) {
   take_flow(arguments);
   take_display(arguments);
   if (arguments.options.frames.display || writes_marks(arguments)) arguments.options.frames.depth_budget.reset();
+  frames.deep = !frames.display && arguments.output_layout.anaglyph.empty() &&
+                writes_deep(arguments.output, arguments.options.writing);
   frames.depth = {.kind = arguments.depth.kind, .strength = arguments.depth.strength};
   if (arguments.output_layout.two_films && !writes_marks(arguments)) {
     arguments.options.right_film = film_of_eye(arguments.output, right_eye);

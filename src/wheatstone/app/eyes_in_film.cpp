@@ -55,8 +55,10 @@ std::vector<Frame> frames_of_films(Frame frame, std::size_t films) {
     return all;
   }
   StereoPair eyes = cut_apart(frame.picture, StereoLayout::left_right, "a frame");
-  all.push_back({std::move(eyes.left), frame.pts, frame.time_base, frame.duration});
-  all.push_back({std::move(eyes.right), frame.pts, frame.time_base, frame.duration});
+  std::pair<Image<Rgb16>, Image<Rgb16>> deep;
+  if (!frame.deep.empty()) deep = cut_apart(frame.deep, StereoLayout::left_right, "a frame");
+  all.push_back({std::move(eyes.left), frame.pts, frame.time_base, frame.duration, std::move(deep.first)});
+  all.push_back({std::move(eyes.right), frame.pts, frame.time_base, frame.duration, std::move(deep.second)});
   return all;
 }
 

@@ -105,12 +105,14 @@ DrawnPart draw_film_part(const fs::path& folder, const FilmPlan& plan, FrameRang
       const auto draw = [&](const FrameOfPlan& planned) {
         DrawnFrame drawn = draw_film_frame(planned.painting, planned.showing);
         part.worst_bare_share = std::max(part.worst_bare_share, drawn.worst_bare_share);
-        return picture_in_film(std::move(drawn.pictures), layout, plan.anaglyph);
+        return frame_in_film(std::move(drawn), layout, plan.anaglyph);
       };
-      Image<Rgb8> picture = draw(read_planned_frame(folder, plan, number));
-      if (shown.outgoing) dissolve_from(draw(read_outgoing_frame(folder, plan, number)), shown.share, picture);
-      const std::vector<Frame> of_films =
-          frames_of_films({std::move(picture), shown.pts, shown.time_base, shown.duration}, films.size());
+      Frame frame = draw(read_planned_frame(folder, plan, number));
+      if (shown.outgoing) dissolve_from(draw(read_outgoing_frame(folder, plan, number)), shown.share, frame);
+      frame.pts = shown.pts;
+      frame.time_base = shown.time_base;
+      frame.duration = shown.duration;
+      const std::vector<Frame> of_films = frames_of_films(std::move(frame), films.size());
       for (std::size_t i = 0; i < files.size(); ++i) files[i].write(of_films[i]);
       ++part.frames;
     }

@@ -30,6 +30,7 @@ struct PlannedShowing {
   std::optional<QuiltLayout> quilt;
   std::optional<LenticularScreen> screen;
   Device device = Device::processor;
+  bool deep = false;             ///< as Presentation
   std::int32_t backgrounds = 0;  ///< pictures behind the paint: none, or one a view
   bool is_masked = false;        ///< with a mask for each view
   bool paints_outside = false;   ///< of the masks

@@ -91,6 +91,7 @@ PlannedShowing planned_showing(const FrameShowing& showing) {
                          .quilt = {},
                          .screen = {},
                          .device = presentation.device,
+                         .deep = presentation.deep,
                          .backgrounds = static_cast<std::int32_t>(showing.backgrounds.size())};
   if (const auto& composition = presentation.composition) {
     if (const auto* const quilt = std::get_if<QuiltLayout>(&*composition))
@@ -110,8 +111,11 @@ FrameOfPlan read_frame(const fs::path& folder, const PlannedShowing& planned, co
                        std::int64_t number) {
   FrameOfPlan frame{read_painting(folder / marks_name(of, number)), {}};
   Presentation& presentation = frame.showing.presentation;
-  presentation = {
-      .views = planned.views, .placement = planned.placement, .covered = planned.covered, .device = planned.device};
+  presentation = {.views = planned.views,
+                  .placement = planned.placement,
+                  .covered = planned.covered,
+                  .device = planned.device,
+                  .deep = planned.deep};
   if (planned.quilt) presentation.composition = *planned.quilt;
   if (planned.screen) presentation.composition = *planned.screen;
   frame.showing.backgrounds = read_pictures(folder, of, number, static_cast<std::size_t>(planned.backgrounds));

@@ -9,6 +9,7 @@
 #include "wheatstone/app/eyes_in_film.h"
 #include "wheatstone/app/slow_ends_internal.h"
 #include "wheatstone/error.h"
+#include "wheatstone/stereo/packed_pair.h"
 
 namespace wheatstone {
 namespace {
@@ -33,8 +34,21 @@ Presented presented(std::vector<DrawnView> drawn) {
   for (DrawnView& view : drawn) {
     shown.worst_bare_share = std::max(shown.worst_bare_share, view.bare_share);
     shown.views.push_back(std::move(view.picture));
+    if (!view.deep.empty()) shown.deep.push_back(std::move(view.deep));
   }
   return shown;
+}
+
+/// Puts `share`, 0..1, of a picture over the rest of another one of its size.
+template <class Pixel>
+void mix(const Image<Pixel>& outgoing, float share, Image<Pixel>& picture) {
+  using Level = decltype(Pixel::r);
+  const auto mixed = [share](Level from, Level to) {
+    return static_cast<Level>(std::lround(static_cast<float>(from) + share * static_cast<float>(to - from)));
+  };
+  std::ranges::transform(outgoing.pixels(), picture.pixels(), picture.pixels().begin(), [&](Pixel from, Pixel to) {
+    return Pixel{mixed(from.r, to.r), mixed(from.g, to.g), mixed(from.b, to.b)};
+  });
 }
 
 }  // namespace
@@ -59,18 +73,21 @@ Presentation for_display(PictureSize frame, const SceneDepth& scene, const FilmD
   return presentation;
 }
 
-Image<Rgb8> picture_in_film(FramePictures pictures, StereoLayout layout, std::string_view anaglyph) {
-  const auto* const eyes = std::get_if<StereoPair>(&pictures);
-  return eyes != nullptr ? put_into_frame(*eyes, layout, anaglyph) : std::get<Image<Rgb8>>(std::move(pictures));
+Frame frame_in_film(DrawnFrame drawn, StereoLayout layout, std::string_view anaglyph) {
+  Frame frame;
+  if (const auto* const eyes = std::get_if<StereoPair>(&drawn.pictures))
+    frame.picture = put_into_frame(*eyes, layout, anaglyph);
+  else
+    frame.picture = std::get<Image<Rgb8>>(std::move(drawn.pictures));
+  if (drawn.deep.size() == 1) frame.deep = std::move(drawn.deep.front());
+  if (drawn.deep.size() == 2 && anaglyph.empty()) frame.deep = put_together(drawn.deep[0], drawn.deep[1], layout);
+  return frame;
 }
 
-void dissolve_from(const Image<Rgb8>& outgoing, float share, Image<Rgb8>& picture) {
-  const auto mixed = [share](std::uint8_t from, std::uint8_t to) {
-    return static_cast<std::uint8_t>(std::lround(from + share * static_cast<float>(to - from)));
-  };
-  std::ranges::transform(outgoing.pixels(), picture.pixels(), picture.pixels().begin(), [&](Rgb8 from, Rgb8 to) {
-    return Rgb8{mixed(from.r, to.r), mixed(from.g, to.g), mixed(from.b, to.b)};
-  });
+void dissolve_from(const Frame& outgoing, float share, Frame& frame) {
+  mix(outgoing.picture, share, frame.picture);
+  if (same_size(outgoing.deep, frame.deep)) return mix(outgoing.deep, share, frame.deep);
+  frame.deep = {};
 }
 
 DrawnFrame draw_film_frame(const Painting& painting, const FrameShowing& showing, std::vector<DrawnView> drawn) {
@@ -79,6 +96,7 @@ DrawnFrame draw_film_frame(const Painting& painting, const FrameShowing& showing
   Presented shown = drawn.empty() ? present(painting, presentation) : presented(std::move(drawn));
   double worst_bare_share = shown.worst_bare_share;
   if (const auto& outside = showing.outside) {
+    shown.deep.clear();  // the pictures outside have 8 bits
     Presented painted;
     if (outside->painting) {
       presentation.backgrounds.assign(outside->pictures.begin(), outside->pictures.end());
@@ -88,7 +106,8 @@ DrawnFrame draw_film_frame(const Painting& painting, const FrameShowing& showing
     const std::vector<Image<Rgb8>>& pictures = outside->painting ? painted.views : outside->pictures;
     for (std::size_t i = 0; i < shown.views.size(); ++i) show_in_mask(outside->masks[i], pictures[i], shown.views[i]);
   }
-  return {frame_pictures(std::move(shown)), worst_bare_share};
+  std::vector<Image<Rgb16>> deep = std::move(shown.deep);
+  return {frame_pictures(std::move(shown)), worst_bare_share, std::move(deep)};
 }
 
 std::string moved_eyes_note(std::int64_t frames, double least_separation) {

@@ -12,6 +12,7 @@
 #include "wheatstone/display/lenticular.h"
 #include "wheatstone/display/quilt.h"
 #include "wheatstone/stereo/stereo_pair.h"
+#include "wheatstone/video/frame.h"
 
 namespace wheatstone {
 
@@ -44,12 +45,6 @@ Presentation for_display(PictureSize frame, const SceneDepth& scene, const FilmD
 /// a display.
 using FramePictures = std::variant<StereoPair, Image<Rgb8>>;
 
-/// The picture of a frame as a film has it: two eyes put together, as put_into_frame.
-Image<Rgb8> picture_in_film(FramePictures pictures, StereoLayout layout, std::string_view anaglyph);
-
-/// Puts `share`, 0..1, of a picture over the rest of another one of its size.
-void dissolve_from(const Image<Rgb8>& outgoing, float share, Image<Rgb8>& picture);
-
 /// What is shown of a frame where it is not painted in its style.
 struct ShownOutside {
   std::vector<Image<std::uint8_t>> masks;  ///< of each view, as FrameMask
@@ -67,12 +62,19 @@ struct FrameShowing {
 /// A frame that was drawn.
 struct DrawnFrame {
   FramePictures pictures;
-  double worst_bare_share = 0;  ///< of the pixels of an eye or a view, 0..1
+  double worst_bare_share = 0;          ///< of the pixels of an eye or a view, 0..1
+  std::vector<Image<Rgb16>> deep = {};  ///< either eye's picture, or the one view's, with 16 bits a channel; or none
 };
 
 /// Draws a frame, whose painting has all its marks. Frames are drawn in any order, with the same bytes. `drawn` has the
 /// presentation's views where they are drawn already. Throws as `present`.
 DrawnFrame draw_film_frame(const Painting& painting, const FrameShowing& showing, std::vector<DrawnView> drawn = {});
+
+/// The frame as a film has it, without its time: two eyes put together, as put_into_frame. Anaglyphs have 8 bits.
+Frame frame_in_film(DrawnFrame drawn, StereoLayout layout, std::string_view anaglyph);
+
+/// Puts `share`, 0..1, of a frame over the rest of another one of its size.
+void dissolve_from(const Frame& outgoing, float share, Frame& frame);
 
 /// The sentence that a film's comment has if the eyes were moved together in this many frames, to no less than this
 /// separation; empty where there was none.

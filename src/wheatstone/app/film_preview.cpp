@@ -160,7 +160,7 @@ class PreviewWork {
     StereoFrame small{third(frame.left), third(frame.right), frame.pts, frame.time_base, frame.duration};
     FilmState state;
     state.shot.frames = number;
-    const Image<Rgb8> picture = paint_film_frame(small, small_, true, state, within_).picture;
+    const Image<Rgb8> picture = paint_film_frame(small, small_, true, state, within_).frame.picture;
     const fs::path file = folder_.file(fmt::format("shown_{:09}.png", number + 1));
     write_image(file, picture);
     entries_.push_back({file, fmt::format("{}: frame {}, {}", &shot - shots_.data() + 1, number + 1,
@@ -172,7 +172,7 @@ class PreviewWork {
   void add_to_sample(std::int64_t number, StereoFrame& frame) {
     const Stopwatch watch(sample_.frames.empty() ? sample_.first_s : sample_.others_s);
     sample_state_.shot.frames = number;
-    sample_.frames.push_back(frame_at(paint_film_frame(frame, whole_, true, sample_state_, within_).picture, frame));
+    sample_.frames.push_back(frame_at(paint_film_frame(frame, whole_, true, sample_state_, within_).frame, frame));
   }
 
   /// Encodes the first frame, and all of them, to tell what a frame takes that others go before.

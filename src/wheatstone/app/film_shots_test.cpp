@@ -144,7 +144,7 @@ TEST_F(FilmOfShots, DissolvesFromOnePaintingOfTheFrameToTheOther) {
     const auto picture = [&](const RotoscopeFilmOptions& of, FilmState& state) {
       StereoPair eyes = eyes_of_frame(number);
       StereoFrame frame{std::move(eyes.left), std::move(eyes.right), number, {1, 25}, 1};
-      return paint_film_frame(frame, of, true, state, {}).picture;
+      return paint_film_frame(frame, of, true, state, {}).frame.picture;
     };
     const Image<Rgb8> made = picture(options, film), from = picture(first, alone), to = picture(second, cut);
     const int share = number < 3 ? 0 : std::min(number - 2, 4);

@@ -10,9 +10,17 @@
 #include "wheatstone/display/arrange.h"
 #include "wheatstone/error.h"
 #include "wheatstone/files/unfinished_outputs.h"
+#include "wheatstone/stereo/packed_pair.h"
 
 namespace wheatstone {
 namespace {
+
+/// The eyes' pictures with 16 bits a channel as the film has them; empty where there are none.
+Image<Rgb16> deep_of(const StereoFrame& frame, StereoLayout layout, const PackFilmOptions& options) {
+  if (frame.left_deep.empty() || options.shift_px != 0 || !options.anaglyph.empty()) return {};
+  if (options.swap) return put_together(frame.right_deep, frame.left_deep, layout);
+  return put_together(frame.left_deep, frame.right_deep, layout);
+}
 
 StereoPair eyes_of(StereoFrame& frame, const PackFilmOptions& options) {
   if (frame.right.empty())
@@ -40,7 +48,7 @@ PackedFilm pack_film(StereoFilmReader& source, const std::filesystem::path& outp
     const auto expected = static_cast<double>(std::max(options.expected_frames, packed.frames + 1));
     report(progress, "packing", options.expected_frames > 0 ? static_cast<double>(packed.frames) / expected : 0);
     Frame together{put_into_frame(eyes_of(frame, options), layout, options.anaglyph), frame.pts, frame.time_base,
-                   frame.duration};
+                   frame.duration, deep_of(frame, layout, options)};
     const std::vector<Frame> frames = frames_of_films(std::move(together), films.size());
     for (std::size_t i = 0; i < films.size(); ++i) films[i].write(frames[i]);
     packed.width = frames.front().picture.width();

@@ -33,12 +33,13 @@ PaintedFilmFrame paint_film_frame(StereoFrame& frame, const RotoscopeFilmOptions
   const KnownFrame* const known_frame = known ? &*known : nullptr;
   const FrameMask* const frame_mask = mask ? &*mask : nullptr;
   const auto paint = [&](const RotoscopeOptions& of_frame, RotoscopeState& of_shot) {
-    if (draws) return rotoscope_frame(eyes, of_frame, of_shot, known_frame, progress, frame_mask);
-    return RotoscopedFrame{plan_film_frame(eyes, of_frame, of_shot, known_frame, progress, frame_mask), {}};
+    const ImageView<const Rgb16> deep = frame.left_deep;
+    if (draws) return rotoscope_frame(eyes, of_frame, of_shot, known_frame, progress, frame_mask, deep);
+    return RotoscopedFrame{plan_film_frame(eyes, of_frame, of_shot, known_frame, progress, frame_mask, deep), {}};
   };
   const StereoLayout layout = options.right_film.empty() ? options.writing.layout : StereoLayout::left_right;
-  const auto picture_of = [&](RotoscopedFrame& painted) {
-    return picture_in_film(std::move(painted.pictures), layout, options.anaglyph);
+  const auto in_film = [&](RotoscopedFrame& painted) {
+    return frame_in_film(std::move(static_cast<DrawnFrame&>(painted)), layout, options.anaglyph);
   };
   follow_dissolve(options, state);
   PaintedFilmFrame made;
@@ -47,8 +48,8 @@ PaintedFilmFrame paint_film_frame(StereoFrame& frame, const RotoscopeFilmOptions
     made.share = dissolve->share;
   }
   made.shot = paint(options_of_frame(options.frames, options.shots, number, at_s), state.shot);
-  if (draws) made.picture = picture_of(made.shot);
-  if (draws && made.outgoing) dissolve_from(picture_of(*made.outgoing), made.share, made.picture);
+  if (draws) made.frame = in_film(made.shot);
+  if (draws && made.outgoing) dissolve_from(in_film(*made.outgoing), made.share, made.frame);
   frame.left = std::move(eyes.left);
   frame.right = std::move(eyes.right);
   return made;
@@ -59,8 +60,11 @@ void repeat_film_frame(const PaintedFilmFrame& before, FilmState& state) {
   if (before.outgoing && state.outgoing) repeat_film_frame(*before.outgoing, *state.outgoing);
 }
 
-Frame frame_at(Image<Rgb8> picture, const StereoFrame& source) {
-  return {std::move(picture), source.pts, source.time_base, source.duration};
+Frame frame_at(Frame frame, const StereoFrame& source) {
+  frame.pts = source.pts;
+  frame.time_base = source.time_base;
+  frame.duration = source.duration;
+  return frame;
 }
 
 }  // namespace wheatstone

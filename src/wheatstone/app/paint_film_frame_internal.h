@@ -12,8 +12,8 @@ namespace wheatstone {
 struct PaintedFilmFrame {
   RotoscopedFrame shot;
   std::optional<RotoscopedFrame> outgoing;  ///< the same moment, as the shot paints it that dissolves into this one
-  float share = 1;                          ///< of the shot's picture in `picture`; the rest is the outgoing one's
-  Image<Rgb8> picture;                      ///< as the film has it
+  float share = 1;                          ///< of the shot's picture in `frame`; the rest is the outgoing one's
+  Frame frame;                              ///< as the film has it, without its time
 };
 
 /// Paints a frame that was read, or only plans it; in a dissolve as two shots. Its pictures stay for reading the next
@@ -24,7 +24,7 @@ PaintedFilmFrame paint_film_frame(StereoFrame& frame, const RotoscopeFilmOptions
 /// Goes on by a frame that shows the painting of the one before again.
 void repeat_film_frame(const PaintedFilmFrame& before, FilmState& state);
 
-/// The frame's picture at the time of `source`.
-Frame frame_at(Image<Rgb8> picture, const StereoFrame& source);
+/// The frame at the time of `source`.
+Frame frame_at(Frame frame, const StereoFrame& source);
 
 }  // namespace wheatstone

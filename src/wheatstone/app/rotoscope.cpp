@@ -307,6 +307,7 @@ FrameShowing showing_of(const FrameTask& task, const TwoEyes& eyes, const SceneD
     if (!one_eye) showing.backgrounds.push_back(whole.right);
   }
   showing.presentation.device = options.device;
+  showing.presentation.deep = options.deep && options.device == Device::processor;
   return showing;
 }
 
@@ -322,7 +323,7 @@ PlannedFrame plan_marks(const FilmFrame& frame, const FrameTask& task, const Two
     return planned;
   }
   if (!are_own_eyes(options, eyes)) return plan_frame(frame, style, options.carrying, memory, task.progress);
-  return plan_for_eyes(frame, style, options.carrying, memory, task.progress, options.device);
+  return plan_for_eyes(frame, style, options.carrying, memory, task.progress, options.device, options.deep);
 }
 
 /// The mask as the scene's frames are rectified, whose colours do not matter.
@@ -380,7 +381,8 @@ void remember(const Image<Rgb8>& left, FrameAtWork frame, RotoscopeState& state)
 }  // namespace
 
 PlannedFilmFrame plan_film_frame(const StereoPair& photographed, const RotoscopeOptions& options, RotoscopeState& state,
-                                 const KnownFrame* known, const Progress& progress, const FrameMask* mask) {
+                                 const KnownFrame* known, const Progress& progress, const FrameMask* mask,
+                                 ImageView<const Rgb16> left_deep) {
   const bool has_depth = known != nullptr && known->depth;
   check_eyes(photographed, options, state, has_depth);
   if (mask != nullptr) check_mask(*mask, photographed, options);
@@ -414,7 +416,10 @@ PlannedFilmFrame plan_film_frame(const StereoPair& photographed, const Rotoscope
     state.flow_before = find_flow(frame, task, state);
   }
   report(progress, "painting", 0);
-  const FilmFrame to_paint{frame.views, carries ? &state.flow_before : nullptr};
+  Image<Rgb16> rectified_deep;
+  if (!left_deep.empty() && state.rectification.how)
+    left_deep = rectified_deep = rectified_left(left_deep, *state.rectification.how);
+  const FilmFrame to_paint{frame.views, carries ? &state.flow_before : nullptr, left_deep};
   if (has_own_eyes(options) && !eyes.right.empty())
     result.eyes = comfortable_eyes({eyes.left.width(), eyes.left.height()}, state.depth.ends,
                                    options.depth_budget.value_or(1.f), options.zero_parallax_px);
@@ -447,14 +452,13 @@ void repeat_film_frame(const PlannedFilmFrame& before, RotoscopeState& state) {
 }
 
 RotoscopedFrame rotoscope_frame(const StereoPair& photographed, const RotoscopeOptions& options, RotoscopeState& state,
-                                const KnownFrame* known, const Progress& progress, const FrameMask* mask) {
-  RotoscopedFrame result{plan_film_frame(photographed, options, state, known, progress, mask), {}};
+                                const KnownFrame* known, const Progress& progress, const FrameMask* mask,
+                                ImageView<const Rgb16> left_deep) {
+  RotoscopedFrame result{plan_film_frame(photographed, options, state, known, progress, mask, left_deep), {}};
   report(progress, "drawing", 0);
   const Stopwatch watch(result.painting_times.rasterising_s);
-  DrawnFrame drawn = draw_film_frame(result.painting, result.showing, std::move(result.drawn));
-  result.pictures = std::move(drawn.pictures);
-  result.worst_bare_share = drawn.worst_bare_share;
-  state.totals.worst_bare_share = std::max(state.totals.worst_bare_share, drawn.worst_bare_share);
+  static_cast<DrawnFrame&>(result) = draw_film_frame(result.painting, result.showing, std::move(result.drawn));
+  state.totals.worst_bare_share = std::max(state.totals.worst_bare_share, result.worst_bare_share);
   return result;
 }
 

@@ -46,9 +46,12 @@ struct RotoscopeOptions {
   CentralMerge central = CentralMerge::visible;
   CarryOptions carrying;
   std::optional<FilmDisplay> display;  ///< what frames are drawn for; none: for two eyes
-  Device device = Device::processor;   ///< what draws them; where it is automatic and fails, the processor does
-  DisparityFromDepthOptions depth;     ///< of the frames of one eye whose depth is known
-  std::optional<float> depth_budget;   ///< of two eyes, as comfortable_eyes; none: they are the film's own
+  /// Frames for two eyes, or of one, are also drawn with 16 bits a channel, if the processor draws them and they are
+  /// painted all over.
+  bool deep = false;
+  Device device = Device::processor;  ///< what draws them; where it is automatic and fails, the processor does
+  DisparityFromDepthOptions depth;    ///< of the frames of one eye whose depth is known
+  std::optional<float> depth_budget;  ///< of two eyes, as comfortable_eyes; none: they are the film's own
   /// The disparity, in pixels of a frame, that lies on the screen plane, for two eyes and on a display; none: where the
   /// film has it, as far as the depth budget allows, or in the middle of the scene's depth on a display.
   std::optional<float> zero_parallax_px;
@@ -122,10 +125,7 @@ struct PlannedFilmFrame {
   PaintingTimes painting_times;
 };
 
-struct RotoscopedFrame : PlannedFilmFrame {
-  FramePictures pictures;
-  double worst_bare_share = 0;  ///< of the pixels of an eye or a view, 0..1
-};
+struct RotoscopedFrame : PlannedFilmFrame, DrawnFrame {};
 
 /// Plans the next frame of a film (Bukenberger et al. 2015): rectifies it as its scene's first frame asks for, finds
 /// its disparity, merges the eyes into the central view, finds the flow there from the frame before, and plans what
@@ -134,10 +134,11 @@ struct RotoscopedFrame : PlannedFilmFrame {
 /// film of one eye is to be shown on a display, wrong_usage for options that make no sense. `progress` is called
 /// between its steps and while it matches. If it throws, painting ends, and `state` is of no further use. With a
 /// `mask`, which is rectified as the frame is, the options must have no display, depth budget or screen plane, because
-/// the film's own pictures have its own depth; the frame is planned at its whole size.
+/// the film's own pictures have its own depth; the frame is planned at its whole size. `left_deep`: the left picture
+/// with 16 bits a channel, which refines colours; empty: there are 8.
 PlannedFilmFrame plan_film_frame(const StereoPair& photographed, const RotoscopeOptions& options, RotoscopeState& state,
                                  const KnownFrame* known = nullptr, const Progress& progress = {},
-                                 const FrameMask* mask = nullptr);
+                                 const FrameMask* mask = nullptr, ImageView<const Rgb16> left_deep = {});
 
 /// Goes on by a frame that shows the painting of the one before again.
 void repeat_film_frame(const PlannedFilmFrame& before, RotoscopeState& state);
@@ -145,6 +146,6 @@ void repeat_film_frame(const PlannedFilmFrame& before, RotoscopeState& state);
 /// Plans the frame and draws it (draw_film_frame). The state's totals learn how much of it is bare.
 RotoscopedFrame rotoscope_frame(const StereoPair& photographed, const RotoscopeOptions& options, RotoscopeState& state,
                                 const KnownFrame* known = nullptr, const Progress& progress = {},
-                                const FrameMask* mask = nullptr);
+                                const FrameMask* mask = nullptr, ImageView<const Rgb16> left_deep = {});
 
 }  // namespace wheatstone

@@ -94,7 +94,7 @@ RotoscopedFilm paint_frames(StereoFilmReader& source, FilmOutput& output, const 
       if (!shown.shot.rows_note.empty()) film.notes.push_back(note_of(film.frames, shown.shot.rows_note));
     }
     output.write_marks(shown, frame, state);
-    if (!output.is_plan()) output.write(frame_at(shown.picture, frame), state);
+    if (!output.is_plan()) output.write(frame_at(shown.frame, frame), state);
   }
   if (film.frames == 0) throw Error(ErrorKind::wrong_usage, "the film has no frame in the requested time range");
   film.totals = state.shot.totals;
@@ -189,8 +189,8 @@ class SharedWork {
     const std::int64_t number = state.shot.frames;
     if (const fs::path marks = marks_of(path_, options_); !marks.empty())
       write_painting(unfinished_marks(marks, number), painted.shot.painting);
-    PassedFrame passed{frame_at(painted.picture, frame), state.shot.totals, note};
-    if (!makes_film()) passed.frame.picture = {};
+    PassedFrame passed{frame_at(painted.frame, frame), state.shot.totals, note};
+    if (!makes_film()) passed.frame.picture = {}, passed.frame.deep = {};
     if (has_state(number)) write_film_state(passed_.state_file(number), state);
     passed_.put(number, passed);
   }

@@ -279,6 +279,10 @@ StereoPair rectified(const StereoPair& photographs, const Rectification& how) {
   return {warped(photographs.left, how.left, size), warped(photographs.right, how.right, size)};
 }
 
+Image<Rgb16> rectified_left(ImageView<const Rgb16> photograph, const Rectification& how) {
+  return warped(photograph, how.left, cv::Size(how.width, how.height));
+}
+
 RectifiedPair rectify(const StereoPair& photographs, const RectifyOptions& options, const Progress& progress) {
   check_rectifiable(photographs);
   Estimate found = estimate(photographs, options, progress);

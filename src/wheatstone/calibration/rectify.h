@@ -65,5 +65,7 @@ double kept_area(const Rectification& rectification);
 
 /// Another pair of the same cameras, geometry only.
 StereoPair rectified(const StereoPair& photographs, const Rectification& how);
+/// The left picture of such a pair, with 16 bits a channel.
+Image<Rgb16> rectified_left(ImageView<const Rgb16> photograph, const Rectification& how);
 
 }  // namespace wheatstone

@@ -62,10 +62,9 @@ void find_places(const RectifyingMap& map, const cv::Matx33d& back, int y, std::
   }
 }
 
-}  // namespace
-
-Image<Rgb8> warped(ImageView<const Rgb8> photograph, const RectifyingMap& map, cv::Size size) {
-  Image<Rgb8> result(size.width, size.height);
+template <class Pixel>
+Image<Pixel> warp(ImageView<const Pixel> photograph, const RectifyingMap& map, cv::Size size) {
+  Image<Pixel> result(size.width, size.height);
   const cv::Mat from = as_mat(photograph);
   cv::Mat to = as_mat(result);
   const cv::Matx33d back = cv::Matx33d(map.homography.data()).inv();
@@ -78,6 +77,16 @@ Image<Rgb8> warped(ImageView<const Rgb8> photograph, const RectifyingMap& map, c
     cv::remap(from, band, places, cv::noArray(), cv::INTER_CUBIC, cv::BORDER_REPLICATE);
   });
   return result;
+}
+
+}  // namespace
+
+Image<Rgb8> warped(ImageView<const Rgb8> photograph, const RectifyingMap& map, cv::Size size) {
+  return warp(photograph, map, size);
+}
+
+Image<Rgb16> warped(ImageView<const Rgb16> photograph, const RectifyingMap& map, cv::Size size) {
+  return warp(photograph, map, size);
 }
 
 cv::Rect covered_window(const RectifyingMap& left, const RectifyingMap& right, cv::Size size) {

@@ -13,6 +13,7 @@ cv::Rect largest_rectangle_within(const cv::Mat& mask);
 
 /// A photograph as its rectified picture shows it, from (0, 0) on; beyond the photograph its border goes on.
 Image<Rgb8> warped(ImageView<const Rgb8> photograph, const RectifyingMap& map, cv::Size size);
+Image<Rgb16> warped(ImageView<const Rgb16> photograph, const RectifyingMap& map, cv::Size size);
 
 /// The largest upright rectangle of a canvas from (0, 0) to `size` that both photographs cover, to a thousandth of the
 /// canvas's longer side. Empty where there is none.

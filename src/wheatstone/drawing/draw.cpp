@@ -26,13 +26,14 @@ void hand_over(PreparedPainting::Contents& contents, Device device) {
   done_on_gpu(device, [&] { contents.on_gpu = std::make_shared<PaintingOnGpu>(contents); });
 }
 
-PreparedPainting prepared(const Painting& painting, Device device) {
+PreparedPainting prepared(const Painting& painting, Device device, bool deep) {
   using Marks = decltype(PreparedPainting::Contents::marks);
   Marks marks = std::visit([](const auto& kind) -> Marks { return prepare_marks(kind); }, painting.marks);
   if (auto* const lines = std::get_if<PreparedLines>(&marks))
     lines->overhangs_px = overhangs_of(lines->painting, painting.surfaces);
   auto contents = std::make_unique<PreparedPainting::Contents>(PreparedPainting::Contents{
       width_of(painting), height_of(painting), std::move(marks), painting.surfaces, painting.relief});
+  contents->deep = deep;
   hand_over(*contents, device);
   return PreparedPainting(std::move(contents));
 }
@@ -44,7 +45,7 @@ void draw_on_processor(const PreparedPainting::Contents& contents, std::span<con
   if (strokes == nullptr || contents.relief.depth_px <= 0) return;
   tbb::parallel_for(std::size_t{0}, views.size(), [&](std::size_t i) {
     const SeenSurfaces seen = seen_surfaces(contents.surfaces, views[i].position, {contents.width, 0, contents.height});
-    light_paint(*strokes, views[i].position, seen.hiding, contents.relief, views[i].drawn.picture);
+    light_paint(*strokes, views[i].position, seen.hiding, contents.relief, views[i].drawn);
   });
 }
 
@@ -64,11 +65,11 @@ int PreparedPainting::height() const { return contents_->height; }
 
 PreparedPainting prepare(const Painting& painting, const DrawOptions& options, Device device) {
   const bool is_whole = options.slicing == Slicing();
-  if (is_as_planned(options.placement) && is_whole && options.relief) return prepared(painting, device);
+  if (is_as_planned(options.placement) && is_whole && options.relief) return prepared(painting, device, options.deep);
   Painting part = is_whole ? painting : sliced(painting, options.slicing);
   if (!is_as_planned(options.placement)) part = placed(std::move(part), options.placement);
   if (!options.relief) part.relief = {};
-  return prepared(part, device);
+  return prepared(part, device, options.deep);
 }
 
 void draw(const PreparedPainting& painting, std::span<const ViewPosition> views, const ViewSink& take,
@@ -83,8 +84,8 @@ void draw(const PreparedPainting& painting, std::span<const ViewPosition> views,
     std::vector<DrawnView> drawn(count);
     std::vector<ViewToDraw> to_draw;
     for (std::size_t i = 0; i < count; ++i)
-      to_draw.push_back(
-          {views[first + i], backgrounds.empty() ? ImageView<const Rgb8>() : backgrounds[first + i], drawn[i]});
+      to_draw.push_back({views[first + i], backgrounds.empty() ? ImageView<const Rgb8>() : backgrounds[first + i],
+                         drawn[i], contents.deep});
     draw_some(contents, to_draw);
     for (std::size_t i = 0; i < count; ++i) take(first + i, std::move(drawn[i]));
   }
@@ -105,7 +106,8 @@ DrawnView draw(const PreparedPainting& painting, ViewPosition view, ImageView<co
 void draw_over(PreparedPainting& painting, const Layer& strokes, ViewPosition view, ImageView<const Rgb8> background,
                DrawnView& drawn) {
   PreparedPainting::Contents& contents = painting.contents();
-  draw_marks_over(std::get<PreparedStrokes>(contents.marks), contents.surfaces, strokes, {view, background, drawn});
+  draw_marks_over(std::get<PreparedStrokes>(contents.marks), contents.surfaces, strokes,
+                  {view, background, drawn, contents.deep});
 }
 
 bool is_drawn_by_processor(const PreparedPainting& painting) { return painting.contents().on_gpu == nullptr; }

@@ -17,6 +17,7 @@ struct DrawnView {
   Image<Rgb8> picture;
   double bare_share = 0;     ///< share of the pixels, 0..1, of which marks cover less than half
   Image<std::uint8_t> bare;  ///< 255 for those pixels, 0 for the others
+  Image<Rgb16> deep = {};    ///< the picture with 16 bits a channel, where DrawOptions::deep asks for it
 };
 
 /// Which parts of a painting are drawn.
@@ -24,6 +25,7 @@ struct DrawOptions {
   Placement placement;
   Slicing slicing = {};  ///< of strokes
   bool relief = true;    ///< light the paint of a painting that has relief
+  bool deep = false;     ///< also draw DrawnView::deep. Only the processor does, of strokes; others leave it empty
 };
 
 /// A painting prepared for drawing: everything that is the same in all views. Strokes are flattened into segments,

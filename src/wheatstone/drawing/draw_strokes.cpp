@@ -24,8 +24,9 @@ namespace wheatstone {
 namespace {
 
 /// Gives wholly uncovered pixels of a row the colour beside them on the farther surface.
+template <class Pixel>
 void continue_paint(const FrontToBackAccumulator& accumulator, int band_row, std::span<const float> surface,
-                    std::span<Rgb8> row) {
+                    std::span<Pixel> row) {
   const int width = static_cast<int>(row.size());
   const auto depth = [&](int x) { return surface.empty() || std::isnan(surface[x]) ? 0 : surface[x]; };
   const auto is_gap = [&](int x) { return accumulator.light(band_row, x) >= FrontToBackAccumulator::least_gap_light; };
@@ -341,38 +342,45 @@ class BandOfViews {
   void finish(const ViewAtWork& at_work) const {
     if (!at_work.wanted.empty()) return finish_wanted(at_work);
     const ImageView<const float> surface = at_work.seen.hiding.surface;
+    DrawnView& drawn = at_work.view.drawn;
     for (int row = 0; row < band_.row_count; ++row) {
-      const std::span<Rgb8> picture = at_work.view.drawn.picture.row(band_.top + row);
-      const bool has_gap = finish_row_of(at_work, row, picture, at_work.view.drawn.bare.row(band_.top + row));
-      if (is_opaque(painting_, at_work.view) && has_gap)
-        continue_paint(at_work.accumulator, row, surface.empty() ? std::span<const float>() : surface.row(row),
-                       picture);
+      const int y = band_.top + row;
+      const std::span<Rgb16> deep = drawn.deep.empty() ? std::span<Rgb16>() : drawn.deep.row(y);
+      const bool has_gap = finish_row_of(at_work, row, drawn.picture.row(y), drawn.bare.row(y), deep);
+      if (!has_gap || !is_opaque(painting_, at_work.view)) continue;
+      const std::span<const float> of_row = surface.empty() ? std::span<const float>() : surface.row(row);
+      continue_paint(at_work.accumulator, row, of_row, drawn.picture.row(y));
+      continue_paint(at_work.accumulator, row, of_row, deep);
     }
   }
 
   /// Leaves the other pixels as they are.
   void finish_wanted(const ViewAtWork& at_work) const {
-    std::vector<Rgb8> picture_row(static_cast<std::size_t>(painting_.width));
-    std::vector<std::uint8_t> bare_row(picture_row.size());
+    DrawnView& drawn = at_work.view.drawn;
+    const auto width = static_cast<std::size_t>(painting_.width);
+    std::vector<Rgb8> picture_row(width);
+    std::vector<std::uint8_t> bare_row(width);
+    std::vector<Rgb16> deep_row(drawn.deep.empty() ? 0 : width);
     for (int row = 0; row < band_.row_count; ++row) {
-      finish_row_of(at_work, row, picture_row, bare_row);
-      const auto wanted = at_work.wanted.row(row);
-      const auto picture = at_work.view.drawn.picture.row(band_.top + row);
-      const auto bare = at_work.view.drawn.bare.row(band_.top + row);
-      for (std::size_t x = 0; x < wanted.size(); ++x) {
-        if (wanted[x] == 0) continue;
-        picture[x] = picture_row[x];
-        bare[x] = bare_row[x];
-      }
+      finish_row_of(at_work, row, picture_row, bare_row, deep_row);
+      const auto take = [&, wanted = at_work.wanted.row(row)](const auto& from, auto to) {
+        for (std::size_t x = 0; x < to.size(); ++x)
+          if (wanted[x] != 0) to[x] = from[x];
+      };
+      const int y = band_.top + row;
+      take(picture_row, drawn.picture.row(y));
+      take(bare_row, drawn.bare.row(y));
+      if (!deep_row.empty()) take(deep_row, drawn.deep.row(y));
     }
   }
 
-  bool finish_row_of(const ViewAtWork& at_work, int row, std::span<Rgb8> picture, std::span<std::uint8_t> bare) const {
+  bool finish_row_of(const ViewAtWork& at_work, int row, std::span<Rgb8> picture, std::span<std::uint8_t> bare,
+                     std::span<Rgb16> deep = {}) const {
     const ImageView<const Rgb8> background = at_work.view.background;
     return finish_row(
         at_work.accumulator, row,
         {background.empty() ? std::span<const Rgb8>() : background.row(band_.top + row), painting_.canvas_colour,
-         is_opaque(painting_, at_work.view), painting_.bare_light, picture, bare});
+         is_opaque(painting_, at_work.view), painting_.bare_light, picture, bare, deep});
   }
 
   const PreparedStrokes& painting_;
@@ -472,6 +480,7 @@ void draw_marks(const PreparedStrokes& painting, const Surfaces& surfaces, std::
            (view.background.width() == painting.width && view.background.height() == painting.height));
     view.drawn.picture = Image<Rgb8>(painting.width, painting.height);
     view.drawn.bare = Image<std::uint8_t>(painting.width, painting.height);
+    if (view.deep) view.drawn.deep = Image<Rgb16>(painting.width, painting.height);
   });
   draw_bands(painting, surfaces, views, bands_by_cost(painting));
 }

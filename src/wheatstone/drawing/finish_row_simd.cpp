@@ -55,10 +55,15 @@ std::array<Channel, 3> behind(const RowToFinish& to, int first, int count) {
   return separated(last.data());
 }
 
+/// A channel of a block with 16 bits.
+using DeepChannel = std::array<std::uint16_t, block_px>;
+
 bool finish(const FrontToBackAccumulator& accumulator, int row, const RowToFinish& to) {
   const Floats f;
   const hn::RebindToSigned<Floats> integers;
   const hn::Rebind<std::uint8_t, Floats> bytes;
+  const hn::Rebind<std::uint16_t, Floats> words;
+  std::array<DeepChannel, 3> deep;
   const int lanes = static_cast<int>(hn::Lanes(f)), width = accumulator.width();
   const auto bare_light = hn::Set(f, to.bare_light), gap_light = hn::Set(f, FrontToBackAccumulator::least_gap_light);
   const auto one = hn::Set(f, 1.f), half = hn::Set(f, 0.5f), white = hn::Set(f, 255.f);
@@ -71,25 +76,32 @@ bool finish(const FrontToBackAccumulator& accumulator, int row, const RowToFinis
     for (int i = 0; i < block_px; i += lanes) {
       const auto light = hn::Load(f, block.light + i);
       const auto whole = hn::Div(one, hn::Max(hn::Sub(one, light), hn::Set(f, 1e-6f)));
-      const auto finish_channel = [&](const float* drawn, Channel& channel) {
+      const auto finish_channel = [&](const float* drawn, Channel& channel, DeepChannel& deep_channel) {
         std::uint8_t* const place = channel.data() + i;
         const auto paint = hn::Load(f, drawn + i);
         const auto under = [&] {
           return hn::MulAdd(light, hn::ConvertTo(f, hn::PromoteTo(integers, hn::LoadU(bytes, place))), paint);
         };
         const auto colour = to.is_opaque ? hn::Mul(paint, whole) : under();
-        const auto rounded = hn::Add(hn::Min(hn::Max(colour, hn::Zero(f)), white), half);
-        hn::StoreU(hn::DemoteTo(bytes, hn::ConvertTo(integers, rounded)), bytes, place);
+        const auto level = hn::Min(hn::Max(colour, hn::Zero(f)), white);
+        hn::StoreU(hn::DemoteTo(bytes, hn::ConvertTo(integers, hn::Add(level, half))), bytes, place);
+        if (to.deep.empty()) return;
+        const auto rounded = hn::MulAdd(level, hn::Set(f, static_cast<float>(deep_level)), half);
+        hn::StoreU(hn::DemoteTo(words, hn::ConvertTo(integers, rounded)), words, deep_channel.data() + i);
       };
-      finish_channel(block.red, colours[0]);
-      finish_channel(block.green, colours[1]);
-      finish_channel(block.blue, colours[2]);
+      finish_channel(block.red, colours[0], deep[0]);
+      finish_channel(block.green, colours[1], deep[1]);
+      finish_channel(block.blue, colours[2], deep[2]);
       const auto is_bare = hn::Gt(light, bare_light);
       has_gap = has_gap || !hn::AllFalse(f, hn::Ge(light, gap_light));
       hn::StoreU(hn::DemoteTo(bytes, hn::ConvertTo(integers, hn::IfThenElseZero(is_bare, white))), bytes,
                  bare.data() + i);
     }
     std::copy_n(bare.begin(), count, to.bare.begin() + first);
+    for (int i = 0; i < count && !to.deep.empty(); ++i) {
+      const auto place = static_cast<std::size_t>(i);
+      to.deep[static_cast<std::size_t>(first + i)] = {deep[0][place], deep[1][place], deep[2][place]};
+    }
     if (count == block_px) {
       interleave(colours, to.picture.data() + first);
     } else {

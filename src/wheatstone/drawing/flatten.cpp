@@ -140,12 +140,19 @@ FlatStroke without_vertices(const Stroke& source, std::size_t place) {
   stroke.number = source.number;
   stroke.seed = static_cast<std::uint32_t>(hash_keys({source.number != 0 ? source.number : place}));
   stroke.reference_view = source.reference_view;
-  stroke.red = source.colour.r;
-  stroke.green = source.colour.g;
-  stroke.blue = source.colour.b;
-  stroke.red_change = source.change.r;
-  stroke.green_change = source.change.g;
-  stroke.blue_change = source.change.b;
+  const auto& [begin, end] = source.fine;
+  const auto colour = [](std::uint8_t level, std::int8_t fine) {
+    return static_cast<float>(level) + static_cast<float>(fine) / FineColour::steps_a_level;
+  };
+  const auto change = [](std::int16_t levels, std::int8_t from, std::int8_t to) {
+    return static_cast<float>(levels) + static_cast<float>(to - from) / FineColour::steps_a_level;
+  };
+  stroke.red = colour(source.colour.r, begin[0]);
+  stroke.green = colour(source.colour.g, begin[1]);
+  stroke.blue = colour(source.colour.b, begin[2]);
+  stroke.red_change = change(source.change.r, begin[0], end[0]);
+  stroke.green_change = change(source.change.g, begin[1], end[1]);
+  stroke.blue_change = change(source.change.b, begin[2], end[2]);
   return stroke;
 }
 

@@ -23,6 +23,7 @@ struct PreparedPainting::Contents {
   Relief relief;
   std::shared_ptr<PaintingOnGpu> on_gpu = {};  ///< empty where the processor draws
   Device device = Device::processor;           ///< that was asked for
+  bool deep = false;                           ///< as in DrawOptions
 };
 
 // How each kind of marks is made ready and drawn.
@@ -37,6 +38,7 @@ struct ViewToDraw {
   ViewPosition position;
   ImageView<const Rgb8> background;  ///< may be empty
   DrawnView& drawn;
+  bool deep = false;  ///< with DrawnView::deep
 };
 
 void draw_marks(const PreparedStrokes& painting, const Surfaces& surfaces, std::span<const ViewToDraw> views);

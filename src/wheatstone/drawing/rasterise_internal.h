@@ -208,6 +208,7 @@ struct RowToFinish {
   float bare_light;  ///< a pixel that lets more through is bare
   std::span<Rgb8> picture;
   std::span<std::uint8_t> bare;  ///< 255 for bare pixels
+  std::span<Rgb16> deep = {};    ///< empty: it is not asked for
 };
 
 /// Returns whether some pixels count as unpainted.

@@ -357,14 +357,15 @@ TEST(Rasteriser, DrawsOverAViewWhatItDrawsWithAllStrokes) {
          {std::pair{ImageView<const Rgb8>(photograph), false}, {ImageView<const Rgb8>(), true}, {{}, false}}) {
       StrokePainting painting = painting_of(width, height, 0.6f);
       painting.canvas_shows = canvas_shows;
-      PreparedPainting prepared = prepare(Painting{painting});
+      PreparedPainting prepared = prepare(Painting{painting}, {.deep = true});
       DrawnView drawn = draw(prepared, view, background);
       for (const int count : {7, 1}) {
         const Layer added = random_layer(width, height, count, 0.6f);
         append(added, painting.layers.back());
         draw_over(prepared, added, view, background, drawn);
-        const DrawnView whole = draw(prepare(Painting{painting}), view, background);
+        const DrawnView whole = draw(prepare(Painting{painting}, {.deep = true}), view, background);
         EXPECT_EQ(drawn.picture, whole.picture);
+        EXPECT_EQ(drawn.deep, whole.deep);
         EXPECT_EQ(drawn.bare, whole.bare);
         EXPECT_EQ(drawn.bare_share, whole.bare_share);
       }
@@ -424,6 +425,55 @@ TEST(Rasteriser, CountsWhatIsBare) {
   layer.strokes.push_back({.point_count = 1, .radius_px = 60, .colour = {255, 0, 0}});
   painting.layers.push_back(layer);
   EXPECT_DOUBLE_EQ(draw(Painting{painting}, left_eye).bare_share, 0);
+}
+
+TEST(Rasteriser, DrawsColoursBetweenTwoLevelsWithSixteenBits) {
+  constexpr int count = 64, apart = 12;
+  Layer layer;
+  for (int i = 0; i < count; ++i) {
+    const auto fine = static_cast<std::int8_t>(2 * i);  // steps of a level
+    layer.points.push_back({static_cast<float>(apart * i + 6), 6, 0});
+    layer.strokes.push_back({.first_point = static_cast<std::uint32_t>(i),
+                             .point_count = 1,
+                             .radius_px = 5,
+                             .colour = {100, 0, 200},
+                             .fine = {{fine, 0, fine}, {fine, 0, fine}}});
+  }
+  const Painting painting{StrokePainting{apart * count, 12, {0, 0, 0}, {layer}}};
+  const DrawnView drawn = draw(prepare(painting, {.deep = true}), left_eye);
+  for (int i = 0; i < count; ++i) {
+    const float above = 2 * static_cast<float>(i) / FineColour::steps_a_level;
+    const Rgb16 deep = drawn.deep(apart * i + 6, 6);
+    EXPECT_NEAR(deep.r, (100 + above) * deep_level, 1) << i;
+    EXPECT_NEAR(deep.b, (200 + above) * deep_level, 1) << i;
+    EXPECT_EQ(drawn.picture(apart * i + 6, 6).r, above < 0.5f ? 100 : 101) << i;
+  }
+  EXPECT_TRUE(draw(prepare(painting), left_eye).deep.empty());
+}
+
+TEST(Rasteriser, DrawsThePictureOfSixteenBitsThatRoundsToTheOneOfEight) {
+  for (const bool canvas_shows : {true, false}) {
+    Painting painting{StrokePainting{150, 70, {200, 190, 180}, {random_layer(150, 70, 60, 0.7f)}}};
+    std::get<StrokePainting>(painting.marks).canvas_shows = canvas_shows;
+    painting.relief = {1.5f, 3};
+    const PreparedPainting prepared = prepare(painting, {.deep = true});
+    for (const ViewPosition view : {left_eye, ViewPosition(0.8f)}) {
+      const DrawnView drawn = draw(prepared, view);
+      ASSERT_TRUE(same_size(drawn.deep, drawn.picture));
+      int off = 0;
+      for (std::size_t i = 0; i < drawn.deep.pixels().size(); ++i) {
+        const Rgb16 deep = drawn.deep.pixels()[i];
+        const Rgb8 level = drawn.picture.pixels()[i];
+        // What was rounded before it was lit may come out more than half a level apart.
+        for (const auto& [a, b] : {std::pair{deep.r, level.r}, {deep.g, level.g}, {deep.b, level.b}}) {
+          EXPECT_NEAR(static_cast<float>(a) / deep_level, b, 1.3) << i;
+          if (std::abs(static_cast<float>(a) / deep_level - static_cast<float>(b)) > 0.51f) ++off;
+        }
+      }
+      EXPECT_LT(off, 150 * 70 * 3 / 4);
+      EXPECT_EQ(drawn.picture, draw(prepare(painting), view).picture);
+    }
+  }
 }
 
 TEST(BrushProfile, IsADiscWithASoftRimOfATenthOfItsRadius) {

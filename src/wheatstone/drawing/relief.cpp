@@ -156,10 +156,15 @@ Image<float> relief_of(const PreparedStrokes& painting, ViewPosition view, const
   return relief;
 }
 
-void light_relief(const Image<float>& relief, float depth_px, Image<Rgb8>& picture) {
+namespace {
+
+template <class Pixel>
+void light_by_lamp(const Image<float>& relief, float depth_px, Image<Pixel>& picture) {
+  using Level = decltype(Pixel::r);
+  constexpr auto white = static_cast<float>(std::numeric_limits<Level>::max());
   // From the upper left, not steep, so that ridges show; a flat place is lit to exactly its own colour.
   constexpr float lamp_x = -0.45f, lamp_y = -0.55f, lamp_z = 0.70f;
-  constexpr float darkest = 0.55f, brightest = 1.5f, gloss = 40;
+  constexpr float darkest = 0.55f, brightest = 1.5f, gloss = 40 * white / 255;
   tbb::parallel_for(0, picture.height(), [&](int y) {
     const auto above = relief.row(std::max(y - 1, 0)), here = relief.row(y);
     const auto below = relief.row(std::min(y + 1, picture.height() - 1));
@@ -171,18 +176,31 @@ void light_relief(const Image<float>& relief, float depth_px, Image<Rgb8>& pictu
           (lamp_z - slope_x * lamp_x - slope_y * lamp_y) / std::sqrt(1 + slope_x * slope_x + slope_y * slope_y);
       const float light = std::clamp(to_lamp / lamp_z, darkest, brightest);
       const float shine = gloss * std::max(light - 1.12f, 0.f);
-      const auto lit = [&](std::uint8_t level) {
-        return static_cast<std::uint8_t>(std::min(light * static_cast<float>(level) + shine, 255.f) + 0.5f);
+      const auto lit = [&](Level level) {
+        return static_cast<Level>(std::min(light * static_cast<float>(level) + shine, white) + 0.5f);
       };
-      Rgb8& pixel = picture(x, y);
+      Pixel& pixel = picture(x, y);
       if (light != 1) pixel = {lit(pixel.r), lit(pixel.g), lit(pixel.b)};
     }
   });
 }
 
+}  // namespace
+
+void light_relief(const Image<float>& relief, float depth_px, Image<Rgb8>& picture) {
+  light_by_lamp(relief, depth_px, picture);
+}
+
+void light_relief(const Image<float>& relief, float depth_px, Image<Rgb16>& picture) {
+  light_by_lamp(relief, depth_px, picture);
+}
+
 void light_paint(const PreparedStrokes& painting, ViewPosition view, const Hiding& hiding, const Relief& relief,
-                 Image<Rgb8>& picture) {
-  if (relief.depth_px > 0) light_relief(relief_of(painting, view, hiding, relief.bristle_px), relief.depth_px, picture);
+                 DrawnView& drawn) {
+  if (relief.depth_px <= 0) return;
+  const Image<float> heights = relief_of(painting, view, hiding, relief.bristle_px);
+  light_relief(heights, relief.depth_px, drawn.picture);
+  light_relief(heights, relief.depth_px, drawn.deep);
 }
 
 Relief relief_for(const Style& style, int width) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "wheatstone/drawing/draw.h"
 #include "wheatstone/drawing/hiding.h"
 #include "wheatstone/drawing/prepared_strokes_internal.h"
 #include "wheatstone/marks/painting.h"
@@ -13,8 +14,8 @@ namespace wheatstone {
 Image<float> relief_of(const PreparedStrokes& painting, ViewPosition view, const Hiding& hiding = {},
                        float bristle_px = Relief{}.bristle_px);
 
-/// Lights the paint of a view as it was drawn; without relief it stays as it is.
+/// Lights the paint of a view as it was drawn, in all its pictures; without relief it stays as it is.
 void light_paint(const PreparedStrokes& painting, ViewPosition view, const Hiding& hiding, const Relief& relief,
-                 Image<Rgb8>& picture);
+                 DrawnView& drawn);
 
 }  // namespace wheatstone

@@ -7,15 +7,22 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 namespace wheatstone {
 namespace {
 
 double linear_of(double srgb) { return srgb <= 0.04045 ? srgb / 12.92 : std::pow((srgb + 0.055) / 1.055, 2.4); }
 
-std::array<float, 256> make_linear_table() {
-  std::array<float, 256> table{};
-  for (int i = 0; i < 256; ++i) table[i] = static_cast<float>(linear_of(i / 255.));
+double srgb_of(double linear) {
+  return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
+}
+
+/// The light of each code value.
+std::vector<float> make_linear_table(std::size_t codes) {
+  std::vector<float> table(codes);
+  for (std::size_t i = 0; i < codes; ++i)
+    table[i] = static_cast<float>(linear_of(static_cast<double>(i) / static_cast<double>(codes - 1)));
   return table;
 }
 
@@ -58,8 +65,18 @@ const Encoder& encoder() {
 }  // namespace
 
 float linear_from_srgb(std::uint8_t code) {
-  static const std::array<float, 256> table = make_linear_table();
+  static const std::vector<float> table = make_linear_table(256);
   return table[code];
+}
+
+float linear_from_deep_srgb(std::uint16_t code) {
+  static const std::vector<float> table = make_linear_table(65536);
+  return table[code];
+}
+
+std::uint16_t deep_srgb_from_linear(float linear) {
+  const float value = std::min(std::max(0.f, linear), 1.f);  // in this order NaN becomes 0
+  return static_cast<std::uint16_t>(std::lround(65535 * srgb_of(value)));
 }
 
 std::uint8_t srgb_from_linear(float linear) { return encoder()(linear); }

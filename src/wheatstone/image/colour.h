@@ -13,6 +13,12 @@ namespace wheatstone {
 /// Linear light, 0..1, of an sRGB code value (IEC 61966-2-1).
 float linear_from_srgb(std::uint8_t code);
 
+/// The same of a code value of 16 bits, as in Rgb16.
+float linear_from_deep_srgb(std::uint16_t code);
+
+/// The nearest code value of 16 bits of linear light; outside 0..1 as the next function.
+std::uint16_t deep_srgb_from_linear(float linear);
+
 /// The nearest sRGB code value of linear light. What is below 0 or above 1 is taken as there, NaN as 0.
 std::uint8_t srgb_from_linear(float linear);
 

@@ -16,6 +16,15 @@ struct Rgb8 {
   friend bool operator==(const Rgb8&, const Rgb8&) = default;
 };
 
+/// The same with 16 bits a channel, 0..65535: what films of ten bits are read to, and drawn for.
+struct Rgb16 {
+  std::uint16_t r = 0, g = 0, b = 0;
+  friend bool operator==(const Rgb16&, const Rgb16&) = default;
+};
+
+/// Of one level of 8 bits, in Rgb16.
+inline constexpr int deep_level = 257;
+
 /// Borrowed pixels, row by row, row 0 at the top; pixel (x, y) covers [x, x+1) × [y, y+1). Never owns, never null
 /// unless empty. `ImageView<const Pixel>` only reads. `stride` counts pixels from one row to the next.
 template <class Pixel>

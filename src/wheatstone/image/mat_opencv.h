@@ -15,6 +15,7 @@ template <class Pixel>
 constexpr int opencv_type() {
   using Plain = std::remove_const_t<Pixel>;
   if constexpr (std::is_same_v<Plain, Rgb8>) return CV_8UC3;
+  if constexpr (std::is_same_v<Plain, Rgb16>) return CV_16UC3;
   if constexpr (std::is_same_v<Plain, std::uint8_t>) return CV_8UC1;
   if constexpr (std::is_same_v<Plain, std::uint16_t>) return CV_16UC1;
   if constexpr (std::is_same_v<Plain, std::int16_t>) return CV_16SC1;

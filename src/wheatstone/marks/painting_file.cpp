@@ -46,7 +46,8 @@ flatbuffers::Offset<file::Layer> encode_layer(const Layer& layer, flatbuffers::F
   std::vector<std::uint32_t> numbers;
   std::vector<std::uint8_t> parts;
   std::vector<file::ColourChange> changes;
-  bool numbered = false, has_parts = false, changing = false;
+  std::vector<file::FineColour> fine;
+  bool numbered = false, has_parts = false, changing = false, is_fine = false;
   for (const Stroke& s : layer.strokes) {
     strokes.emplace_back(s.first_point, s.point_count, s.radius_px, s.opacity, s.disparity,
                          s.reference_view.eye_separations(), s.views.first.eye_separations(),
@@ -57,10 +58,13 @@ flatbuffers::Offset<file::Layer> encode_layer(const Layer& layer, flatbuffers::F
     has_parts = has_parts || s.is_part;
     changes.emplace_back(s.change.r, s.change.g, s.change.b);
     changing = changing || s.change != ColourChange{};
+    const auto& [begin, end] = s.fine;
+    fine.emplace_back(begin[0], begin[1], begin[2], end[0], end[1], end[2]);
+    is_fine = is_fine || s.fine != FineColour{};
   }
   return file::CreateLayerDirect(builder, layer.radius_px, &points.x, &points.y, &points.disparity, &strokes,
                                  numbered ? &numbers : nullptr, has_parts ? &parts : nullptr,
-                                 changing ? &changes : nullptr);
+                                 changing ? &changes : nullptr, is_fine ? &fine : nullptr);
 }
 
 flatbuffers::Offset<file::Brush> encode_brush(const Brush& brush, flatbuffers::FlatBufferBuilder& builder) {
@@ -193,6 +197,10 @@ ColourChange decode_change(const file::ColourChange& from, const Checker& checke
   return {from.red(), from.green(), from.blue()};
 }
 
+FineColour decode_fine(const file::FineColour& from) {
+  return {{from.red(), from.green(), from.blue()}, {from.red_end(), from.green_end(), from.blue_end()}};
+}
+
 Brush decode_brush(const file::Brush& from, const Checker& checker) {
   Brush brush{from.bristle_px(), from.streaks(), from.ridge(), from.dry()};
   checker.expect(brush.bristle_px >= 0 && brush.bristle_px <= static_cast<float>(largest_side_px),
@@ -222,12 +230,16 @@ Layer decode_layer(const file::Layer& from, const Checker& checker) {
   const auto* changes = from.changes();
   checker.expect(changes == nullptr || changes->size() == from.strokes()->size(),
                  "a layer's strokes and the changes of their colours differ in length");
+  const auto* fine = from.fine();
+  checker.expect(fine == nullptr || fine->size() == from.strokes()->size(),
+                 "a layer's strokes and their fine colours differ in length");
   layer.strokes.reserve(from.strokes()->size());
   for (flatbuffers::uoffset_t i = 0; i < from.strokes()->size(); ++i) {
     layer.strokes.push_back(decode_stroke(*from.strokes()->Get(i), layer.points.size(), checker));
     if (numbers != nullptr) layer.strokes.back().number = numbers->Get(i);
     if (parts != nullptr) layer.strokes.back().is_part = parts->Get(i) != 0;
     if (changes != nullptr) layer.strokes.back().change = decode_change(*changes->Get(i), checker);
+    if (fine != nullptr) layer.strokes.back().fine = decode_fine(*fine->Get(i));
   }
   return layer;
 }

@@ -60,6 +60,7 @@ Painting small(int kind) {
     std::get<StrokePainting>(any.marks).layers[0].strokes[1].number = 77;
     std::get<StrokePainting>(any.marks).layers[0].strokes[1].is_part = true;
     std::get<StrokePainting>(any.marks).layers[0].strokes[0].change = {-9, 0, 255};
+    std::get<StrokePainting>(any.marks).layers[0].strokes[1].fine = {{-127, 0, 127}, {1, 2, 3}};
     std::get<StrokePainting>(any.marks).brush = {1.5f, 11, 8, 0.5f, built_in_brush("knife")};
     any.relief = {1.5f, 3};
     return any;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -27,6 +28,14 @@ struct ColourChange {
   friend bool operator==(const ColourChange&, const ColourChange&) = default;
 };
 
+/// What 8 bits leave out of a stroke's colour: added to it where the stroke begins and where it ends, in steps of
+/// 1/128 level. Between, it changes evenly, as the colour does.
+struct FineColour {
+  static constexpr float steps_a_level = 128;
+  std::array<std::int8_t, 3> begin{}, end{};  ///< red, green, blue
+  friend bool operator==(const FineColour&, const FineColour&) = default;
+};
+
 /// One stroke of the brush: a disc with a soft rim, drawn along a cubic B-spline. It covers a pixel once, however
 /// often its curve comes back to it.
 struct Stroke {
@@ -41,6 +50,7 @@ struct Stroke {
   std::uint32_t number = 0;                ///< names the stroke across the frames of a film, from 1; 0: none
   ColourChange change;
   bool is_part = false;  ///< of a stroke that another one of its layer begins, as the second half of a dual stroke
+  FineColour fine = {};  ///< of paintings of pictures with more than 8 bits
   friend bool operator==(const Stroke&, const Stroke&) = default;
 };
 

@@ -13,6 +13,9 @@ struct FilmFrame {
   /// Of the reference view: forward, of the pixels of the frame before, to this one; backward, of this one's pixels,
   /// to the one before. Null where a scene begins: nothing is carried into it.
   const FlowPair* flow = nullptr;
+  /// The left eye's picture with 16 bits a channel, perhaps larger than the views are: it refines the colours of
+  /// strokes. Empty: there are 8.
+  ImageView<const Rgb16> left_deep = {};
 };
 
 /// Throws Error{bad_input} where a scene has no pictures, its images are not of one size, or a disparity is unknown.

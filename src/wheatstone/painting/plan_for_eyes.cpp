@@ -24,8 +24,8 @@ std::vector<ShownView> shown_views(std::span<const View> views, Background backg
   return shown;
 }
 
-PreparedPainting draw_shown(const Painting& painting, Device device, std::vector<ShownView>& shown) {
-  PreparedPainting prepared = prepare(painting, {}, device);
+PreparedPainting draw_shown(const Painting& painting, Device device, bool deep, std::vector<ShownView>& shown) {
+  PreparedPainting prepared = prepare(painting, {.deep = deep}, device);
   std::vector<ViewPosition> positions;
   std::vector<ImageView<const Rgb8>> backgrounds;
   for (const ShownView& eye : shown) {
@@ -40,7 +40,7 @@ PreparedPainting draw_shown(const Painting& painting, Device device, std::vector
 }  // namespace
 
 PlannedFrame plan_for_eyes(const FilmFrame& frame, const Style& style, const CarryOptions& options,
-                           PaintingMemory& memory, const Progress& progress, Device device) {
+                           PaintingMemory& memory, const Progress& progress, Device device, bool deep) {
   PlannedFrame planned = plan_without_repair(frame, style, options, memory, progress);
   Painting& painting = planned.painting;
   if (!is_repaired_when_drawn(painting, style)) {
@@ -49,7 +49,7 @@ PlannedFrame plan_for_eyes(const FilmFrame& frame, const Style& style, const Car
   }
   report(progress, "painting", 0);
   std::vector<ShownView> shown = shown_views(frame.views, style.background);
-  PreparedPainting prepared = draw_shown(painting, device, shown);
+  PreparedPainting prepared = draw_shown(painting, device, deep, shown);
   repair_drawn(shown, frame.views.front().position, style, painting, prepared);
   // A graphics processor, which draws the same but for rounding, has not drawn the repairs.
   if (is_drawn_by_processor(prepared))

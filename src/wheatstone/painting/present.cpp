@@ -49,9 +49,10 @@ double bare_share_of(const DrawnView& view, const CoveredPart& covered) {
 }  // namespace
 
 Presented present(const Painting& painting, const Presentation& presentation) {
-  const PreparedPainting prepared = prepare(painting, {.placement = presentation.placement}, presentation.device);
   const std::optional<DisplayComposition>& composition = presentation.composition;
   const std::optional<CoveredPart>& covered = presentation.covered;
+  const DrawOptions options{.placement = presentation.placement, .deep = presentation.deep && !composition && !covered};
+  const PreparedPainting prepared = prepare(painting, options, presentation.device);
   if (composition && !covered)
     if (std::optional<Presented> presented = composed_on_gpu(prepared, presentation)) return *std::move(presented);
   Presented presented;
@@ -67,6 +68,7 @@ Presented present(const Painting& painting, const Presentation& presentation) {
     if (quilt != nullptr) return put_into_quilt(view.picture, static_cast<int>(place), *quilt, presented.composed);
     presented.bare_shares.push_back(view.bare_share);
     presented.views.push_back(std::move(view.picture));
+    if (!view.deep.empty()) presented.deep.push_back(std::move(view.deep));
   };
   draw(prepared, presentation.views, take, presentation.backgrounds);
   if (!composition || quilt != nullptr) return presented;

@@ -18,11 +18,13 @@ struct Presentation {
   std::vector<ImageView<const Rgb8>> backgrounds = {};  ///< of each view, as `draw` takes them; none: the canvas colour
   std::optional<DisplayComposition> composition = {};   ///< of one picture of all views; none: a picture for each view
   Device device = Device::processor;
+  bool deep = false;  ///< also Presented::deep, as DrawOptions::deep. Not with bars or a composition
 };
 
 /// The pictures of a presentation.
 struct Presented {
   std::vector<Image<Rgb8>> views;   ///< in the presentation's order; none where there is a composition
+  std::vector<Image<Rgb16>> deep;   ///< of each of `views`, with 16 bits a channel, where that was asked for and drawn
   Image<Rgb8> composed;             ///< empty where there is no composition
   std::vector<double> bare_shares;  ///< of each of `views`: the share of the pixels, 0..1, of its covered part that
                                     ///< marks cover less than half

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <memory>
+#include <type_traits>
 
 #include "wheatstone/error.h"
 #include "wheatstone/files/whole_file.h"
@@ -39,8 +40,12 @@ std::vector<std::string> view_names(std::size_t count) {
 
 namespace {
 
+float light_of(std::uint8_t code) { return linear_from_srgb(code); }
+float light_of(std::uint16_t code) { return linear_from_deep_srgb(code); }
+
 /// One view is an ordinary picture; of more, the attribute tells their names.
-void write_views(const std::filesystem::path& path, std::span<const ImageView<const Rgb8>> views) {
+template <class Pixel>
+void write_views(const std::filesystem::path& path, std::span<const ImageView<const Pixel>> views) {
   const int width = views.front().width(), height = views.front().height();
   const std::size_t channels = 3 * views.size();
   StoredPicture picture{width, height, static_cast<int>(channels)};
@@ -68,9 +73,9 @@ void write_views(const std::filesystem::path& path, std::span<const ImageView<co
       const auto row = views[v].row(y);
       for (std::size_t x = 0; x < row.size(); ++x) {
         float* const to = line.data() + x * channels + 3 * v;
-        to[0] = linear_from_srgb(row[x].r);
-        to[1] = linear_from_srgb(row[x].g);
-        to[2] = linear_from_srgb(row[x].b);
+        to[0] = light_of(row[x].r);
+        to[1] = light_of(row[x].g);
+        to[2] = light_of(row[x].b);
       }
     }
     check(writer->write({line.data(), floats_kind, y, 1, static_cast<std::ptrdiff_t>(line.size() * sizeof(float))}));
@@ -79,30 +84,20 @@ void write_views(const std::filesystem::path& path, std::span<const ImageView<co
   write_whole_file(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 
-}  // namespace
-
-void write_multiview_exr(const std::filesystem::path& path, std::span<const Image<Rgb8>> views) {
+template <class Pixel>
+void write_multiview(const std::filesystem::path& path, std::span<const Image<Pixel>> views) {
   if (views.size() < 2 || views.size() > most_views)
     throw Error(ErrorKind::wrong_usage,
                 fmt::format("{}: {} views, expected 2 to {}", path.string(), views.size(), most_views));
-  for (const Image<Rgb8>& view : views)
+  for (const Image<Pixel>& view : views)
     if (view.empty() || !same_size(view, views.front()))
       throw Error(ErrorKind::wrong_usage, fmt::format("{}: views of different sizes, expected one", path.string()));
-  write_views(path, std::vector<ImageView<const Rgb8>>(views.begin(), views.end()));
+  const std::vector<ImageView<const Pixel>> borrowed(views.begin(), views.end());
+  write_views(path, std::span(borrowed));
 }
 
-void write_picture_exr(const std::filesystem::path& path, ImageView<const Rgb8> picture) {
-  write_views(path, {&picture, 1});
-}
-
-bool is_multiview_exr(const std::filesystem::path& path) {
-  std::error_code error;
-  if (path.extension() != ".exr" || !std::filesystem::exists(path, error)) return false;
-  const std::unique_ptr<PictureReader> reader = open_picture_file(path).reader;
-  return reader && views_named_in(reader->picture()).size() > 1;
-}
-
-std::vector<Image<Rgb8>> read_multiview_exr(const std::filesystem::path& path) {
+template <class Pixel>
+std::vector<Image<Pixel>> read_views(const std::filesystem::path& path) {
   const auto refuse = [&](const std::string& what) {
     throw Error(ErrorKind::bad_input, fmt::format("{}: {}", path.string(), what));
   };
@@ -121,10 +116,15 @@ std::vector<Image<Rgb8>> read_multiview_exr(const std::filesystem::path& path) {
     if (found == stored.channel_names.end()) refuse(fmt::format("has no channel {}", wanted));
     channels.push_back(static_cast<std::size_t>(found - stored.channel_names.begin()));
   }
-  std::vector<Image<Rgb8>> views(names.size(), Image<Rgb8>(stored.width, stored.height));
+  std::vector<Image<Pixel>> views(names.size(), Image<Pixel>(stored.width, stored.height));
   const auto stride = static_cast<std::size_t>(stored.channels);
   std::vector<float> line(static_cast<std::size_t>(stored.width) * stride);
-  const auto encoded = [](float light) { return srgb_from_linear(light > 0 ? std::min(light, 1.f) : 0.f); };
+  const auto encoded = [](float light) {
+    if constexpr (std::is_same_v<Pixel, Rgb16>)
+      return deep_srgb_from_linear(light);
+    else
+      return srgb_from_linear(light);
+  };
   for (int y = 0; y < stored.height; ++y) {
     if (!reader->read(y, 1, stored.channels, line.data()))
       refuse(fmt::format("is damaged or cut short: {}", reader->complaint()));
@@ -138,5 +138,34 @@ std::vector<Image<Rgb8>> read_multiview_exr(const std::filesystem::path& path) {
   }
   return views;
 }
+
+}  // namespace
+
+void write_multiview_exr(const std::filesystem::path& path, std::span<const Image<Rgb8>> views) {
+  write_multiview(path, views);
+}
+
+void write_multiview_exr(const std::filesystem::path& path, std::span<const Image<Rgb16>> views) {
+  write_multiview(path, views);
+}
+
+void write_picture_exr(const std::filesystem::path& path, ImageView<const Rgb8> picture) {
+  write_views<Rgb8>(path, {&picture, 1});
+}
+
+void write_picture_exr(const std::filesystem::path& path, ImageView<const Rgb16> picture) {
+  write_views<Rgb16>(path, {&picture, 1});
+}
+
+bool is_multiview_exr(const std::filesystem::path& path) {
+  std::error_code error;
+  if (path.extension() != ".exr" || !std::filesystem::exists(path, error)) return false;
+  const std::unique_ptr<PictureReader> reader = open_picture_file(path).reader;
+  return reader && views_named_in(reader->picture()).size() > 1;
+}
+
+std::vector<Image<Rgb8>> read_multiview_exr(const std::filesystem::path& path) { return read_views<Rgb8>(path); }
+
+std::vector<Image<Rgb16>> read_deep_multiview_exr(const std::filesystem::path& path) { return read_views<Rgb16>(path); }
 
 }  // namespace wheatstone

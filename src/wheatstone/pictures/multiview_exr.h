@@ -17,12 +17,16 @@ std::vector<std::string> view_names(std::size_t count);
 /// the others are called after them ("right.R"), the attribute "multiView" names all. Appears only when it is whole.
 /// Throws Error: wrong_usage where views are fewer than two or of different sizes, cannot_read_write.
 void write_multiview_exr(const std::filesystem::path& path, std::span<const Image<Rgb8>> views);
+void write_multiview_exr(const std::filesystem::path& path, std::span<const Image<Rgb16>> views);
 
 /// Writes one picture as OpenEXR, in the same way. Throws Error{cannot_read_write}.
 void write_picture_exr(const std::filesystem::path& path, ImageView<const Rgb8> picture);
+void write_picture_exr(const std::filesystem::path& path, ImageView<const Rgb16> picture);
 
 /// The views of such a file, as sRGB. Throws Error{bad_input} where it has none.
 std::vector<Image<Rgb8>> read_multiview_exr(const std::filesystem::path& path);
+/// The same with 16 bits a channel.
+std::vector<Image<Rgb16>> read_deep_multiview_exr(const std::filesystem::path& path);
 
 /// Whether the file is an OpenEXR that names several views.
 bool is_multiview_exr(const std::filesystem::path& path);

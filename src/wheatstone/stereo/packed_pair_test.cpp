@@ -53,6 +53,32 @@ TEST(PackedPair, PuttingTogetherUndoesCuttingApartWhereEyesAreWoven) {
   }
 }
 
+TEST(PackedPair, IsTheSameWithSixteenBits) {
+  const StereoPair eyes{hills(24, 16, 0), hills(24, 16, 6)};
+  const auto deepened = [](const Image<Rgb8>& picture) {
+    Image<Rgb16> deep(picture.width(), picture.height());
+    std::ranges::transform(picture.pixels(), deep.pixels().begin(), [](Rgb8 level) {
+      const auto code = [](std::uint8_t channel) { return static_cast<std::uint16_t>(channel * deep_level); };
+      return Rgb16{code(level.r), code(level.g), code(level.b)};
+    });
+    return deep;
+  };
+  for (const StereoLayout layout : {StereoLayout::left_right, StereoLayout::bottom_top, StereoLayout::checkerboard,
+                                    StereoLayout::left_right_half}) {
+    const Image<Rgb16> packed = put_together(deepened(eyes.left), deepened(eyes.right), layout);
+    const Image<Rgb8> expected = put_together(eyes.left, eyes.right, layout);
+    ASSERT_TRUE(same_size(packed, expected));
+    for (std::size_t i = 0; i < packed.pixels().size(); ++i)
+      EXPECT_NEAR(static_cast<double>(packed.pixels()[i].g) / deep_level, expected.pixels()[i].g, 0.51) << i;
+    const auto [left, right] = cut_apart(packed, layout, "a frame");
+    const StereoPair cut = cut_apart(expected, layout, "a frame");
+    for (std::size_t i = 0; i < left.pixels().size(); ++i) {
+      EXPECT_NEAR(static_cast<double>(left.pixels()[i].r) / deep_level, cut.left.pixels()[i].r, 1.5) << i;
+      EXPECT_NEAR(static_cast<double>(right.pixels()[i].r) / deep_level, cut.right.pixels()[i].r, 1.5) << i;
+    }
+  }
+}
+
 TEST(PackedPair, EachPixelOfAnInterlacedScreenShowsItsEye) {
   const Image<Rgb8> left(5, 3, {255, 0, 0}), right(5, 3, {0, 0, 255});
   const auto shown = [&](StereoLayout layout) {

@@ -10,6 +10,7 @@
 
 #include "wheatstone/error.h"
 #include "wheatstone/strokes/carry_strokes_internal.h"
+#include "wheatstone/strokes/fine_colours_internal.h"
 #include "wheatstone/strokes/layer_order.h"
 #include "wheatstone/strokes/misplaced_strokes_internal.h"
 #include "wheatstone/strokes/refit_internal.h"
@@ -111,6 +112,15 @@ void drop_needless(std::span<const View> views, std::size_t home, std::uint32_t 
                });
   });
   keep_if(tracked, [&](std::size_t i) { return shown[i] != 0; });
+}
+
+/// Refines the colours of new strokes where the frame has more than 8 bits, and the style does not vary colours.
+void refine_new(const FilmFrame& frame, const Style& style, StrokeMemory& memory) {
+  if (frame.left_deep.empty() || style.jitter != ColourJitter{}) return;
+  const DeepPicture picture{frame.left_deep, static_cast<float>(frame.left_deep.width()) /
+                                                 static_cast<float>(frame.views.front().colour.width())};
+  for (std::vector<TrackedLayer>& layers : memory.views)
+    for (TrackedLayer& tracked : layers) refine_colours(picture, memory.last_number, tracked.layer);
 }
 
 /// Counts the new strokes and remembers their numbers.
@@ -232,6 +242,7 @@ CarriedPainting plan_strokes(const FilmFrame& frame, const Style& style, const C
                     tracked);
     }
   });
+  refine_new(frame, style, memory);
   result.counts.begun = count_new(memory);
   result.counts.carried = living_strokes(memory) - result.counts.begun;
   if (options.goes_on) memory.reference_disparity = copy_of(frame.views.front().disparity);

@@ -300,12 +300,14 @@ void DecodedFilm::check_size() const {
 }
 
 void DecodedFilm::convert(Image<Rgb8>& picture) {
-  if (orientation_.is_upright()) {
-    rgb_from_frame_.convert(*frame_, picture);
-    return;
-  }
-  rgb_from_frame_.convert(*frame_, lying_);
-  picture = turned(lying_, orientation_);
+  rgb_from_frame_.convert(*frame_, picture);
+  if (!orientation_.is_upright()) picture = turned(picture, orientation_);
+}
+
+void DecodedFilm::convert_deep(Image<Rgb16>& picture) {
+  if (!is_deep(static_cast<AVPixelFormat>(frame_->format))) return;
+  deep_from_frame_.convert(*frame_, picture);
+  if (!orientation_.is_upright()) picture = turned(picture, orientation_);
 }
 
 std::optional<std::string> DecodedFilm::loss() const {

@@ -36,6 +36,8 @@ class DecodedFilm {
   FrameTime time() const { return time_; }
   /// The frame that `step` came to.
   void convert(Image<Rgb8>& picture);
+  /// The same with 16 bits a channel; empty where the film has 8.
+  void convert_deep(Image<Rgb16>& picture);
 
   std::optional<std::string> loss() const;
 
@@ -64,8 +66,8 @@ class DecodedFilm {
   OwnedFrame frame_ = new_frame();              ///< the one at hand
   OwnedFrame ahead_ = new_frame();              ///< the one after it: only its time tells how long this one is shown
   std::unique_ptr<Deinterlacer> deinterlacer_;  ///< from the first interlaced frame on
-  RgbFromFrame rgb_from_frame_;
-  Image<Rgb8> lying_;  ///< before it is turned
+  RgbFromFrame<Rgb8> rgb_from_frame_;
+  RgbFromFrame<Rgb16> deep_from_frame_;
   FilmFacts facts_;
   PictureTurn orientation_;
   FrameTime time_;

@@ -82,6 +82,10 @@ const FilmFacts& FilmReader::facts() const { return implementation_->facts(); }
 bool FilmReader::read(Frame& frame) {
   if (!implementation_->advance()) return false;
   std::visit([&](auto& film) { film.convert(frame.picture); }, implementation_->source);
+  const auto convert_deep = [&](auto& film) {
+    if constexpr (requires { film.convert_deep(frame.deep); }) film.convert_deep(frame.deep);
+  };
+  if (implementation_->options.deep) std::visit(convert_deep, implementation_->source);
   const FrameTime time = implementation_->time();
   frame.pts = time.pts;
   frame.duration = time.duration * implementation_->options.every;

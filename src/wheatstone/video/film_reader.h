@@ -18,6 +18,7 @@ struct FilmReaderOptions {
   int every = 1;                     ///< of what is left, deliver the first and every so many-th after it
   int threads = 0;                   ///< of the decoder; 0: as many as the machine has. The frames are the same on any
   Rational sequence_rate = {24, 1};  ///< frames a second of a sequence of pictures, which does not say
+  bool deep = false;                 ///< also deliver Frame::deep, of films with more than 8 bits a channel
 };
 
 /// A stream beside the pictures.

@@ -15,6 +15,10 @@
 
 namespace wheatstone {
 
+bool writes_deep(const std::filesystem::path& path, const FilmWriterOptions& options) {
+  return frame_pattern(path) ? path.extension() == ".exr" : is_deep(pixel_format_of(options));
+}
+
 struct FilmWriter::Implementation {
   Implementation(const std::filesystem::path& name, const FilmWriterOptions& wanted)
       : path(name), options(wanted), steps(name) {
@@ -61,11 +65,11 @@ void FilmWriter::write(const Frame& frame) {
   Implementation& own = *implementation_;
   own.steps.check(frame);
   if (own.sequence) {
-    own.sequence->add(frame.picture);
+    own.sequence->add(frame);
     return;
   }
   if (!own.encoder) own.begin(frame);
-  own.encoder->send(frame.picture, {frame.pts, frame.duration}, [&](AVPacket& packet) { own.film->add(packet); });
+  own.encoder->send(frame, [&](AVPacket& packet) { own.film->add(packet); });
 }
 
 void FilmWriter::finish() {

@@ -38,6 +38,10 @@ struct FilmWriterOptions {
 /// The codecs that films are written with: "h264", "prores-hq" and so on.
 std::span<const std::string_view> film_codecs();
 
+/// Whether frames of a film at `path` are written with more than 8 bits a channel, if they have them: by the codec's
+/// pixels, or as OpenEXR.
+bool writes_deep(const std::filesystem::path& path, const FilmWriterOptions& options);
+
 /// What of the audio and subtitles of `options.side_streams_from` a film at `path` would leave out because its
 /// container cannot take it: a sentence a stream. Found out by writing the beginning of each stream to memory.
 std::vector<std::string> side_streams_left_out(const std::filesystem::path& path, const FilmWriterOptions& options);

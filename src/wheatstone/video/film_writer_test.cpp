@@ -9,6 +9,7 @@
 #include <set>
 #include <sstream>
 
+#include "largest_difference.h"
 #include "psnr.h"
 #include "scenes/moving_picture.h"
 #include "throws_error.h"
@@ -16,6 +17,7 @@
 #include "wheatstone/stereo/packed_pair.h"
 #include "wheatstone/stereo/stereo_layout.h"
 #include "wheatstone/video/libav_internal.h"
+#include "wheatstone/video/segmented_film.h"
 #include "wheatstone/video/video_codings_internal.h"
 
 namespace wheatstone::film_writer_test {
@@ -68,6 +70,65 @@ TEST(FilmWriter, Ffv1IsExact) {
     ASSERT_EQ(frames.size(), 10u);
     for (int i = 0; i < 10; ++i) EXPECT_EQ(frames[i].picture, moving_picture(width, 47, i)) << i;
   }
+}
+
+/// Every code of ten bits, once in each row.
+Frame ramp_of_ten_bits() {
+  Frame frame{Image<Rgb8>(1024, 128), 0, {1, 25}, 1, Image<Rgb16>(1024, 128)};
+  for (int y = 0; y < 128; ++y)
+    for (int x = 0; x < 1024; ++x) {
+      const auto code = static_cast<std::uint16_t>(std::lround(x * 65535. / 1023));
+      const auto level = static_cast<std::uint8_t>((code + deep_level / 2) / deep_level);
+      frame.deep(x, y) = {code, code, code};
+      frame.picture(x, y) = {level, level, level};
+    }
+  return frame;
+}
+
+TEST(FilmWriter, TenBitsComeBackFromEveryCodecThatHasThem) {
+  struct Case {
+    const char* codec;
+    const char* format;
+    const char* name;
+    int most_off;  ///< of 65535; a step of ten bits is 64
+  };
+  const TemporaryFolder folder;
+  const Frame ramp = ramp_of_ten_bits();
+  for (const auto& [codec, format, name, most_off] :
+       {Case{"ffv1", "gbrp16le", "a.mkv", 0}, Case{"ffv1", "yuv444p10le", "a.mkv", 64},
+        Case{"prores-4444", "", "a.mov", 64}, Case{"dnxhr", "", "a.mov", 128}, Case{"hevc-10", "", "a.mkv", 200}}) {
+    for (const char* range : {"tv", "pc"}) {
+      const FilmWriterOptions options{.codec = codec, .crf = {}, .pixel_format = format, .colour = {.range = range}};
+      ASSERT_TRUE(writes_deep(folder / name, options)) << codec;
+      write_film(folder / name, {ramp}, options);
+      const std::vector<Frame> read = frames_of(folder / name, {.deep = true});
+      ASSERT_TRUE(read.size() == 1 && same_size(read[0].deep, ramp.deep)) << codec << " " << format;
+      int off = 0;
+      for (std::size_t i = 0; i < ramp.deep.pixels().size(); ++i)
+        off = std::max(off, std::abs(read[0].deep.pixels()[i].g - ramp.deep.pixels()[i].g));
+      EXPECT_LE(off, most_off) << codec << " " << format << " " << range;
+    }
+  }
+  make_film(folder / "b.mkv", 1, {.codec = "ffv1"});
+  EXPECT_TRUE(frames_of(folder / "b.mkv", {.deep = true})[0].deep.empty());
+  EXPECT_FALSE(writes_deep(folder / "b.mkv", {}));
+  EXPECT_FALSE(writes_deep(folder / "b_%04d.png", {.codec = "hevc-10"}));
+}
+
+TEST(FilmWriter, OpenExrOfTwoEyesKeepsMoreThanEightBits) {
+  const TemporaryFolder folder;
+  Frame ramp = ramp_of_ten_bits();
+  ramp.picture = put_together(ramp.picture, ramp.picture, StereoLayout::left_right);
+  ramp.deep = put_together(ramp.deep, ramp.deep, StereoLayout::left_right);
+  SegmentedFilm writer(folder / "a_%04d.exr", {.layout = StereoLayout::left_right}, {});
+  writer.write(ramp);
+  writer.finish();
+  const std::vector<Frame> read = frames_of(folder / "a_%04d.exr", {.deep = true});
+  ASSERT_TRUE(same_size(read[0].deep, ramp.deep));
+  // Half floats have 11 bits of linear light: fewest in the lightest tones.
+  for (std::size_t i = 0; i < ramp.deep.pixels().size(); ++i)
+    ASSERT_NEAR(read[0].deep.pixels()[i].r, ramp.deep.pixels()[i].r, 16) << i;
+  EXPECT_LE(largest_difference(read[0].picture, ramp.picture), 1);
 }
 
 TEST(FilmWriter, H264AndHevcAreClose) {

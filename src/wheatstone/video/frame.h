@@ -23,6 +23,9 @@ struct Frame {
   std::int64_t pts = 0;  ///< presentation time
   Rational time_base{1, 1};
   std::int64_t duration = 0;  ///< 0 where unknown
+  /// The same picture with 16 bits a channel, where there is one: read where FilmReaderOptions::deep asks for it, and
+  /// written where writes_deep. Empty: `picture` is all that there is.
+  Image<Rgb16> deep = {};
 
   double seconds() const { return static_cast<double>(pts) * time_base.value(); }
 };
@@ -34,6 +37,7 @@ struct StereoFrame {
   std::int64_t pts = 0;
   Rational time_base{1, 1};
   std::int64_t duration = 0;
+  Image<Rgb16> left_deep = {}, right_deep = {};  ///< as Frame::deep
 };
 
 /// How a film says its colours are coded, in libav's names ("bt709", "smpte170m", "bt2020nc", "gbr"; "tv", "pc");

@@ -100,14 +100,20 @@ AVColorSpace matrix_in_use(AVColorSpace tagged, int width, int height) {
   return width >= 1280 || height > 576 ? AVCOL_SPC_BT709 : AVCOL_SPC_SMPTE170M;
 }
 
-void RgbFromFrame::convert(const AVFrame& frame, Image<Rgb8>& picture) {
+bool is_deep(AVPixelFormat format) {
+  const AVPixFmtDescriptor* description = av_pix_fmt_desc_get(format);
+  return description != nullptr && description->comp[0].depth > 8;
+}
+
+template <class Pixel>
+void RgbFromFrame<Pixel>::convert(const AVFrame& frame, Image<Pixel>& picture) {
   const auto format = static_cast<AVPixelFormat>(frame.format);
   const AVColorSpace matrix = matrix_in_use(frame.colorspace, frame.width, frame.height);
   const std::array<int, 6> wanted = {frame.width, frame.height,      frame.format,
                                      matrix,      frame.color_range, frame.chroma_location};
   if (!scaler_ || wanted != made_for_) {
     scaler_.reset(sws_alloc_context());
-    SwsContext& scaler = prepared(scaler_.get(), frame.width, frame.height, format, AV_PIX_FMT_RGB24);
+    SwsContext& scaler = prepared(scaler_.get(), frame.width, frame.height, format, packed_format<Pixel>);
     const AVPixFmtDescriptor* description = av_pix_fmt_desc_get(format);
     if (description != nullptr && description->log2_chroma_w == 1) {
       const ChromaPlace place = chroma_place(frame.chroma_location);
@@ -117,7 +123,7 @@ void RgbFromFrame::convert(const AVFrame& frame, Image<Rgb8>& picture) {
     if (sws_init_context(&scaler, nullptr, nullptr) < 0) throw std::bad_alloc();
     sws_setColorspaceDetails(&scaler, coefficients_of(matrix), is_full_range(format, frame.color_range) ? 1 : 0,
                              sws_getCoefficients(SWS_CS_DEFAULT), 1, 0, 1 << 16, 1 << 16);
-    rgb_ = frame_of(frame.width, frame.height, AV_PIX_FMT_RGB24);
+    rgb_ = frame_of(frame.width, frame.height, packed_format<Pixel>);
     made_for_ = wanted;
   }
 
@@ -125,7 +131,7 @@ void RgbFromFrame::convert(const AVFrame& frame, Image<Rgb8>& picture) {
   sws_scale(scaler_.get(), frame.data, frame.linesize, 0, frame.height, rgb_->data, rgb_->linesize);
   // A picture that was moved from still tells its size, but has no pixels.
   if (picture.width() != frame.width || picture.height() != frame.height || picture.empty()) {
-    picture = Image<Rgb8>(frame.width, frame.height);
+    picture = Image<Pixel>(frame.width, frame.height);
   }
   for (int y = 0; y < frame.height; ++y) {
     std::memcpy(picture.row(y).data(), rgb_->data[0] + static_cast<std::ptrdiff_t>(y) * rgb_->linesize[0],
@@ -133,9 +139,10 @@ void RgbFromFrame::convert(const AVFrame& frame, Image<Rgb8>& picture) {
   }
 }
 
-FrameFromRgb::FrameFromRgb(int width, int height, AVPixelFormat format, AVColorSpace matrix, AVColorRange range)
-    : scaler_(sws_alloc_context()), rgb_(frame_of(width, height, AV_PIX_FMT_RGB24)), format_(format) {
-  SwsContext& scaler = prepared(scaler_.get(), width, height, AV_PIX_FMT_RGB24, format);
+template <class Pixel>
+FrameFromRgb<Pixel>::FrameFromRgb(int width, int height, AVPixelFormat format, AVColorSpace matrix, AVColorRange range)
+    : scaler_(sws_alloc_context()), rgb_(frame_of(width, height, packed_format<Pixel>)), format_(format) {
+  SwsContext& scaler = prepared(scaler_.get(), width, height, packed_format<Pixel>, format);
   const AVPixFmtDescriptor* description = av_pix_fmt_desc_get(format);
   if (description->log2_chroma_w == 1) {
     const ChromaPlace place = chroma_place(AVCHROMA_LOC_LEFT);
@@ -148,13 +155,14 @@ FrameFromRgb::FrameFromRgb(int width, int height, AVPixelFormat format, AVColorS
                            is_rgb || range == AVCOL_RANGE_JPEG ? 1 : 0, 0, 1 << 16, 1 << 16);
 }
 
-OwnedFrame FrameFromRgb::convert(ImageView<const Rgb8> picture) {
+template <class Pixel>
+OwnedFrame FrameFromRgb<Pixel>::convert(ImageView<const Pixel> picture) {
   for (int y = 0; y < rgb_->height; ++y) {
-    const std::span<const Rgb8> row = picture.row(std::min(y, picture.height() - 1));
+    const std::span<const Pixel> row = picture.row(std::min(y, picture.height() - 1));
     std::uint8_t* target = rgb_->data[0] + static_cast<std::ptrdiff_t>(y) * rgb_->linesize[0];
     std::memcpy(target, row.data(), row.size_bytes());
     for (int x = picture.width(); x < rgb_->width; ++x) {
-      std::memcpy(target + static_cast<std::ptrdiff_t>(x) * 3, &row.back(), sizeof(Rgb8));
+      std::memcpy(target + static_cast<std::size_t>(x) * sizeof(Pixel), &row.back(), sizeof(Pixel));
     }
   }
   OwnedFrame frame = frame_of(rgb_->width, rgb_->height, format_);
@@ -178,9 +186,10 @@ PictureTurn orientation_of(const std::int32_t* display_matrix) {
   return {0, sign(b), sign(c), 0};
 }
 
-Image<Rgb8> turned(const Image<Rgb8>& picture, PictureTurn orientation) {
+template <class Pixel>
+Image<Pixel> turned(const Image<Pixel>& picture, PictureTurn orientation) {
   const int width = picture.width(), height = picture.height();
-  Image<Rgb8> result(orientation.swaps_sides() ? height : width, orientation.swaps_sides() ? width : height);
+  Image<Pixel> result(orientation.swaps_sides() ? height : width, orientation.swaps_sides() ? width : height);
   // What would come to lie left of or above the origin is moved by the picture's extent.
   const int x_origin = orientation.a + orientation.c < 0 ? result.width() - 1 : 0;
   const int y_origin = orientation.b + orientation.d < 0 ? result.height() - 1 : 0;
@@ -192,5 +201,12 @@ Image<Rgb8> turned(const Image<Rgb8>& picture, PictureTurn orientation) {
   }
   return result;
 }
+
+template class RgbFromFrame<Rgb8>;
+template class RgbFromFrame<Rgb16>;
+template class FrameFromRgb<Rgb8>;
+template class FrameFromRgb<Rgb16>;
+template Image<Rgb8> turned(const Image<Rgb8>&, PictureTurn);
+template Image<Rgb16> turned(const Image<Rgb16>&, PictureTurn);
 
 }  // namespace wheatstone

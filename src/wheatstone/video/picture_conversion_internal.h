@@ -18,10 +18,18 @@ ColourTags colour_tags_of(AVColorSpace matrix, AVColorRange range, AVColorPrimar
 /// columns or 577 rows on and BT.601 below.
 AVColorSpace matrix_in_use(AVColorSpace tagged, int width, int height);
 
+/// libav's name for packed pixels of ours, Rgb8 or Rgb16.
+template <class Pixel>
+inline constexpr AVPixelFormat packed_format = sizeof(Pixel) == sizeof(Rgb8) ? AV_PIX_FMT_RGB24 : AV_PIX_FMT_RGB48;
+
+/// Whether a format has more than 8 bits a channel.
+bool is_deep(AVPixelFormat format);
+
 /// Converts frames of one size to RGB. Makes its tables anew when format or tags change.
+template <class Pixel>
 class RgbFromFrame {
  public:
-  void convert(const AVFrame& frame, Image<Rgb8>& picture);
+  void convert(const AVFrame& frame, Image<Pixel>& picture);
 
  private:
   OwnedScaler scaler_;
@@ -30,11 +38,12 @@ class RgbFromFrame {
 };
 
 /// Converts RGB pictures of one size to an encoder's format, repeating the last column and row where that is larger.
+template <class Pixel>
 class FrameFromRgb {
  public:
   FrameFromRgb(int width, int height, AVPixelFormat format, AVColorSpace matrix, AVColorRange range);
   /// The frame is fresh each time: encoders keep what they are given.
-  OwnedFrame convert(ImageView<const Rgb8> picture);
+  OwnedFrame convert(ImageView<const Pixel> picture);
 
  private:
   OwnedScaler scaler_;
@@ -55,6 +64,7 @@ struct PictureTurn {
 /// The orientation that a display matrix asks for, rounded to quarter turns.
 PictureTurn orientation_of(const std::int32_t* display_matrix);
 
-Image<Rgb8> turned(const Image<Rgb8>& picture, PictureTurn orientation);
+template <class Pixel>
+Image<Pixel> turned(const Image<Pixel>& picture, PictureTurn orientation);
 
 }  // namespace wheatstone

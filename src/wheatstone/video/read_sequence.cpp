@@ -42,6 +42,12 @@ Image<Rgb8> PictureSequence::picture(std::int64_t number) const {
   return put_together(views[0], views[1], StereoLayout::left_right);
 }
 
+void PictureSequence::convert_deep(Image<Rgb16>& picture) const {
+  if (!is_multiview_) return;
+  const std::vector<Image<Rgb16>> views = read_deep_multiview_exr(pattern_.file(first_ + next_ - 1));
+  picture = put_together(views.front(), views.back(), StereoLayout::left_right);
+}
+
 void PictureSequence::seek_before(double seconds) {
   const double frame = std::floor(seconds * facts_.frame_rate.value());
   next_ = static_cast<std::int64_t>(std::clamp(frame, 0.0, static_cast<double>(count_)));

@@ -75,7 +75,7 @@ SegmentFile::SegmentFile(const fs::path& folder, std::int64_t number, const Film
 void SegmentFile::add(const Frame& frame) {
   times_.pts.push_back(frame.pts);
   times_.durations.push_back(frame.duration);
-  encoder_.send(frame.picture, {frame.pts, frame.duration}, [this](AVPacket& packet) { put(packet); });
+  encoder_.send(frame, [this](AVPacket& packet) { put(packet); });
 }
 
 void SegmentFile::put(AVPacket& packet) {

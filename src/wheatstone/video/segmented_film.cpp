@@ -59,12 +59,12 @@ void sweep(const fs::path& folder) {
   }
 }
 
-FilmWriterOptions options_of_segments(const FilmWriterOptions& options, bool is_sequence) {
+FilmWriterOptions options_of_segments(const FilmWriterOptions& options, const fs::path& film) {
   FilmWriterOptions result = options;
-  if (!is_sequence) return result;
+  if (!frame_pattern(film)) return result;
   result.codec = "ffv1";
   result.crf.reset();
-  result.pixel_format.clear();
+  result.pixel_format = writes_deep(film, options) ? "gbrp16le" : "";
   return result;
 }
 
@@ -80,8 +80,7 @@ struct FilmSegment::Implementation {
 
 FilmSegment::FilmSegment(fs::path folder, std::int64_t number, const fs::path& film, const FilmWriterOptions& options)
     : implementation_(std::make_unique<Implementation>(
-          Implementation{std::move(folder), number, options_of_segments(options, frame_pattern(film).has_value()),
-                         FrameSteps(film), nullptr})) {
+          Implementation{std::move(folder), number, options_of_segments(options, film), FrameSteps(film), nullptr})) {
   check_encoding(implementation_->options);
 }
 FilmSegment::FilmSegment(FilmSegment&&) noexcept = default;
@@ -117,7 +116,7 @@ struct SegmentedFilm::Implementation {
   Implementation(const fs::path& name, const FilmWriterOptions& wanted, const SegmentOptions& segments)
       : path(name),
         pattern(frame_pattern(name)),
-        options(options_of_segments(wanted, pattern.has_value())),
+        options(options_of_segments(wanted, name)),
         frames_per_segment(segments.frames_per_segment),
         steps(name) {
     if (frames_per_segment < 1) {
@@ -160,8 +159,8 @@ struct SegmentedFilm::Implementation {
   void join_as_pictures(const Progress& progress) {
     SequenceFile sequence(*pattern, folder / pictures_folder, options.layout);
     for (std::int64_t number = 0; number < whole_segments; ++number) {
-      FilmReader reader = open_film(segment_film(closed, number));
-      for (Frame frame; reader.read(frame);) sequence.add(frame.picture);
+      FilmReader reader = open_film(segment_film(closed, number), {.deep = true});
+      for (Frame frame; reader.read(frame);) sequence.add(frame);
       report(progress, "join", static_cast<double>(number + 1) / static_cast<double>(whole_segments));
     }
     write_whole_file(folder / naming_file, "");

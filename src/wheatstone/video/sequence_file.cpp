@@ -39,11 +39,17 @@ SequenceFile::~SequenceFile() {
   fs::remove_all(hidden_.folder, ignored);
 }
 
-void SequenceFile::add(ImageView<const Rgb8> picture) {
+void SequenceFile::add(const Frame& frame) {
   const fs::path file = hidden_.file(++count_);
-  if (file.extension() != ".exr") return write_image(file, picture);
-  if (!is_packed(layout_)) return write_picture_exr(file, picture);
-  StereoPair eyes = cut_apart(picture, layout_, file.string());
+  if (file.extension() != ".exr") return write_image(file, frame.picture);
+  const bool is_deep = !frame.deep.empty();
+  if (!is_packed(layout_))
+    return is_deep ? write_picture_exr(file, frame.deep) : write_picture_exr(file, frame.picture);
+  if (is_deep) {
+    auto [left, right] = cut_apart(frame.deep, layout_, file.string());
+    return write_multiview_exr(file, std::array{std::move(left), std::move(right)});
+  }
+  StereoPair eyes = cut_apart(frame.picture, layout_, file.string());
   write_multiview_exr(file, std::array{std::move(eyes.left), std::move(eyes.right)});
 }
 

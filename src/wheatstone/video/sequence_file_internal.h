@@ -23,7 +23,7 @@ class SequenceFile {
   SequenceFile(const SequenceFile&) = delete;
   SequenceFile& operator=(const SequenceFile&) = delete;
 
-  void add(ImageView<const Rgb8> picture);
+  void add(const Frame& frame);
   void finish();
 
  private:

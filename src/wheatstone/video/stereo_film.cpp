@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -84,7 +85,10 @@ struct StereoFilmReader::Recorded : Implementation {
       if (options.to_s && frame.seconds() + mercy_s >= *options.to_s) return false;
       if (pairs_seen++ % options.every != 0) continue;
       frame.duration = (frame.duration + other.duration) * options.every;
-      if (traits_of(layout.layout).right_first) std::swap(frame.picture, other.picture);
+      if (traits_of(layout.layout).right_first) {
+        std::swap(frame.picture, other.picture);
+        std::swap(frame.deep, other.deep);
+      }
       return true;
     }
     return false;
@@ -96,16 +100,22 @@ struct StereoFilmReader::Recorded : Implementation {
     if (right || is_alternating()) {
       if (!(right ? read_both() : read_pair())) return false;
       std::swap(eyes.left, frame.picture);
+      std::swap(eyes.left_deep, frame.deep);
       std::swap(eyes.right, other.picture);
+      std::swap(eyes.right_deep, other.deep);
     } else {
       if (!left.read(frame)) return false;
       if (layout.layout == StereoLayout::mono) {
         std::swap(eyes.left, frame.picture);
+        std::swap(eyes.left_deep, frame.deep);
         eyes.right = {};
+        eyes.right_deep = {};
       } else {
         StereoPair pair = cut_apart(frame.picture, layout.layout, "frame");
         eyes.left = std::move(pair.left);
         eyes.right = std::move(pair.right);
+        if (!frame.deep.empty())
+          std::tie(eyes.left_deep, eyes.right_deep) = cut_apart(frame.deep, layout.layout, "frame");
       }
     }
     eyes.pts = frame.pts;
@@ -207,7 +217,8 @@ StereoFilmReader open_stereo_film(const std::filesystem::path& packed, std::opti
   auto both = std::make_unique<StereoFilmReader::Recorded>(std::move(reader), packed, std::move(found));
   if (both->is_alternating()) {
     both->options = options;
-    both->left = open_film(packed, {.threads = options.threads, .sequence_rate = options.sequence_rate});
+    both->left =
+        open_film(packed, {.threads = options.threads, .sequence_rate = options.sequence_rate, .deep = options.deep});
   }
   return StereoFilmReader(std::move(both));
 }

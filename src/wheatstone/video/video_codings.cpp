@@ -19,6 +19,8 @@ std::span<const VideoCoding> video_codings() {
   using Names = std::vector<std::string_view>;
   static const Names eight_bits = {"yuv420p", "yuv422p", "yuv444p"};
   static const Names ten_bits = {"yuv420p10le", "yuv422p10le", "yuv444p10le"};
+  static const Names lossless = {"bgr0",        "yuv420p",     "yuv422p",     "yuv444p",
+                                 "yuv420p10le", "yuv422p10le", "yuv444p10le", "gbrp16le"};
   static const Names in_all = {".mp4", ".m4v", ".mov", ".mkv", ".mk3d"}, in_mkv = {".mkv", ".mk3d"};
   static const Names in_mov = {".mov", ".mkv", ".mk3d"}, in_webm = {".webm", ".mp4", ".mkv", ".mk3d"};
   // x265 3.5 that codes several frames at a time gives other bytes every time; its rows are coded by a pool of threads
@@ -32,7 +34,7 @@ std::span<const VideoCoding> video_codings() {
       {"dnxhr", "dnxhd", 0, 0, 4, {"yuv422p10le", "yuv422p", "yuv444p10le"}, in_mov, 256, 120},
       {"av1", "libaom-av1", 63, 20, 4, {"yuv420p10le", "yuv444p10le", "yuv420p", "yuv444p"}, in_webm},
       {"vp9", "libvpx-vp9", 63, 20, 4, {"yuv420p", "yuv444p", "yuv420p10le", "yuv444p10le"}, in_webm},
-      {"ffv1", "ffv1", 0, 0, 4, {"bgr0", "yuv420p", "yuv422p", "yuv444p"}, in_mkv},
+      {"ffv1", "ffv1", 0, 0, 4, lossless, in_mkv},
   };
   return all;
 }

@@ -59,7 +59,9 @@ void tag_colours(AVCodecContext& codec, const FilmWriterOptions& options, bool i
   codec.colorspace = matrix_in_use(matrix, codec.width, codec.height);
   // Its pictures know no other, and decoders believe them more than the container.
   if (options.codec == "dnxhr" && codec.colorspace != AVCOL_SPC_BT2020_NCL) codec.colorspace = AVCOL_SPC_BT709;
-  codec.color_range = tags.range == "pc" ? AVCOL_RANGE_JPEG : AVCOL_RANGE_MPEG;
+  // ProRes has no full range: its readers do not ask.
+  const bool is_prores = options.codec == "prores-hq" || options.codec == "prores-4444";
+  codec.color_range = tags.range == "pc" && !is_prores ? AVCOL_RANGE_JPEG : AVCOL_RANGE_MPEG;
   codec.chroma_sample_location = AVCHROMA_LOC_LEFT;
 }
 
@@ -162,18 +164,25 @@ VideoEncoder::VideoEncoder(const FilmWriterOptions& options, int width, int heig
                        libav_reason(error)));
   }
   frame_from_rgb_.emplace(codec.width, codec.height, codec.pix_fmt, codec.colorspace, codec.color_range);
+  if (is_deep(codec.pix_fmt))
+    frame_from_deep_.emplace(codec.width, codec.height, codec.pix_fmt, codec.colorspace, codec.color_range);
 }
 
-void VideoEncoder::send(ImageView<const Rgb8> picture, FrameTime time, const PacketSink& sink) {
-  const OwnedFrame frame = frame_from_rgb_->convert(picture);
-  frame->pts = time.pts;
-  frame->pkt_duration = time.duration;
+OwnedFrame VideoEncoder::to_code(const Frame& frame) {
+  if (frame_from_deep_ && !frame.deep.empty()) return frame_from_deep_->convert(frame.deep);
+  return frame_from_rgb_->convert(frame.picture);
+}
+
+void VideoEncoder::send(const Frame& given, const PacketSink& sink) {
+  const OwnedFrame frame = to_code(given);
+  frame->pts = given.pts;
+  frame->pkt_duration = given.duration;
   frame->colorspace = codec_->colorspace;
   frame->color_range = codec_->color_range;
   frame->color_primaries = codec_->color_primaries;
   frame->color_trc = codec_->color_trc;
   frame->sample_aspect_ratio = codec_->sample_aspect_ratio;
-  durations_[time.pts] = time.duration;
+  durations_[given.pts] = given.duration;
   const int error = avcodec_send_frame(codec_.get(), frame.get());
   if (error < 0) throw Error(ErrorKind::cannot_read_write, fmt::format("encoder: {}", libav_reason(error)));
   receive(sink);

@@ -28,9 +28,9 @@ class VideoEncoder {
   /// Throws Error{wrong_usage} where the encoder refuses.
   VideoEncoder(const FilmWriterOptions& options, int width, int height, Rational time_base);
 
-  /// Codes a picture of the size given; packets come when the encoder has looked far enough ahead. Later pictures have
-  /// larger pts.
-  void send(ImageView<const Rgb8> picture, FrameTime time, const PacketSink& sink);
+  /// Codes a frame of the size given, with as many bits as it has and the codec takes; packets come when the encoder
+  /// has looked far enough ahead. Later frames have larger pts.
+  void send(const Frame& frame, const PacketSink& sink);
   /// Gives what is still inside.
   void drain(const PacketSink& sink);
 
@@ -40,7 +40,10 @@ class VideoEncoder {
   void receive(const PacketSink& sink);
 
   OwnedCodec codec_;
-  std::optional<FrameFromRgb> frame_from_rgb_;
+  OwnedFrame to_code(const Frame& frame);
+
+  std::optional<FrameFromRgb<Rgb8>> frame_from_rgb_;
+  std::optional<FrameFromRgb<Rgb16>> frame_from_deep_;  ///< of codecs with more than 8 bits
   OwnedPacket packet_ = new_packet();
   std::map<std::int64_t, std::int64_t> durations_;  ///< of frames inside, by pts: encoders forget them
 };

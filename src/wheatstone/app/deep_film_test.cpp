@@ -1,0 +1,105 @@
+// Films of ten bits keep them from the source to the painted film.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <numeric>
+
+#include "temporary_folder.h"
+#include "wheatstone/app/film_plan.h"
+#include "wheatstone/app/rotoscope_film.h"
+#include "wheatstone/stereo/packed_pair.h"
+#include "wheatstone/video/segmented_film.h"
+
+namespace wheatstone::deep_film_test {
+
+namespace fs = std::filesystem;
+
+constexpr int bar_px = 64, bars = 16, height = 256, first_code = 500;
+
+/// A grey of ten bits.
+std::uint16_t deep_grey(int code) { return static_cast<std::uint16_t>(std::lround(code * 65535. / 1023)); }
+
+/// A ramp of bars, each lighter than the one before by a step of ten bits, for two eyes that see the same.
+void make_ramp(const fs::path& path) {
+  SegmentedFilm writer(path, {.codec = "ffv1", .pixel_format = "gbrp16le", .layout = StereoLayout::left_right}, {});
+  Image<Rgb16> deep(bars * bar_px, height);
+  Image<Rgb8> picture(bars * bar_px, height);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < deep.width(); ++x) {
+      const std::uint16_t code = deep_grey(first_code + x / bar_px);
+      const auto level = static_cast<std::uint8_t>((code + deep_level / 2) / deep_level);
+      deep(x, y) = {code, code, code};
+      picture(x, y) = {level, level, level};
+    }
+  for (int i = 0; i < 2; ++i)
+    writer.write({put_together(picture, picture, StereoLayout::left_right),
+                  i,
+                  {1, 24},
+                  1,
+                  put_together(deep, deep, StereoLayout::left_right)});
+  writer.finish();
+}
+
+RotoscopeFilmOptions options_of(const std::string& codec, const std::string& format) {
+  RotoscopeFilmOptions options;
+  options.frames.style = style_by_name("impressionist");
+  options.frames.deep = true;
+  options.writing = {.codec = codec, .pixel_format = format, .layout = StereoLayout::left_right};
+  options.reading.deep = true;
+  options.version = "1.2.3";
+  return options;
+}
+
+void paint(const fs::path& source, const fs::path& output, const RotoscopeFilmOptions& options) {
+  StereoFilmReader film = open_stereo_film(source, {}, options.reading);
+  rotoscope_film(film, output, options);
+}
+
+/// The codes of ten bits that many pixels of the last frame's left eye have.
+std::vector<int> codes_in(const fs::path& path) {
+  StereoFilmReader film = open_stereo_film(path, {}, {.deep = true});
+  StereoFrame frame;
+  while (film.read(frame)) continue;
+  std::map<int, int> pixels;
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < bars * bar_px; ++x) {
+      const double grey = frame.left_deep.empty() ? frame.left(x, y).g * deep_level : frame.left_deep(x, y).g;
+      ++pixels[static_cast<int>(std::lround(grey * 1023 / 65535))];
+    }
+  std::vector<int> codes;
+  for (const auto& [code, count] : pixels)
+    if (count > bars * bar_px * height / 200) codes.push_back(code);
+  return codes;
+}
+
+// Broad strokes cross the borders of bars, and bring their colours: which codes there are tells what bits are kept.
+TEST(DeepFilm, PaintedRampHasNoStepThatEightBitsWouldMake) {
+  const TemporaryFolder folder;
+  make_ramp(folder / "ramp.mkv");
+  paint(folder / "ramp.mkv", folder / "deep.mkv", options_of("ffv1", "gbrp16le"));
+  std::vector<int> expected(bars);
+  std::iota(expected.begin(), expected.end(), first_code);
+  EXPECT_EQ(codes_in(folder / "deep.mkv"), expected);
+
+  RotoscopeFilmOptions flat = options_of("ffv1", "bgr0");
+  flat.frames.deep = flat.reading.deep = false;
+  paint(folder / "ramp.mkv", folder / "flat.mkv", flat);
+  EXPECT_LE(codes_in(folder / "flat.mkv").size(), 5u);
+}
+
+TEST(DeepFilm, IsTheSameWhenItIsPlannedFirst) {
+  const TemporaryFolder folder;
+  make_ramp(folder / "ramp.mkv");
+  RotoscopeFilmOptions options = options_of("prores-hq", "");
+  paint(folder / "ramp.mkv", folder / "whole.mkv", options);
+  options.plan = folder / "film.plan";
+  paint(folder / "ramp.mkv", folder / "parts.mkv", options);
+  const FilmPlan plan = read_film_plan(options.plan, options.version);
+  draw_film_part(options.plan, plan, {1, 2});
+  join_film_parts(options.plan, plan);
+  EXPECT_TRUE(bytes_of(folder / "whole.mkv") == bytes_of(folder / "parts.mkv"));
+}
+
+}  // namespace wheatstone::deep_film_test
