@@ -15,6 +15,7 @@
 #include "film_argument.h"
 #include "rotoscope_arguments.h"
 #include "wheatstone/app/painted_film.h"
+#include "wheatstone/app/rendered_film.h"
 #include "wheatstone/error.h"
 #include "wheatstone/files/output_paths.h"
 #include "wheatstone/motion/flow_file.h"
@@ -163,8 +164,8 @@ void take_depth(const RotoscopeArguments& arguments, const FilmFiles& film, cons
   const FilmDepth depth_of = depth.model.empty()
                                  ? depth_of_film(depth.file, {film.film, source.facts(), options.reading}, depth.kind)
                                  : depth_of_network(depth.model);
-  options.known = [depth_of](std::int64_t frame, const Image<Rgb8>& left) {
-    return KnownFrame{{}, {}, depth_of(frame, left)};
+  options.known = [depth_of](std::int64_t frame, const StereoPair& eyes) {
+    return KnownFrame{{}, {}, depth_of(frame, eyes.left)};
   };
   options.made_from.emplace_back(depth.model.empty() ? depth.file : depth.model);
 }
@@ -192,12 +193,27 @@ void take_truth(const RotoscopeArguments& arguments, const Session& session, Rot
   if (!session.ranks.alone()) throw Error(ErrorKind::wrong_usage, "--truth works in one process, not under mpirun");
   if (arguments.from_s || arguments.frame_step != 1)
     throw Error(ErrorKind::wrong_usage, "--truth counts all frames from the first: leave out --from and --frame-step");
-  options.known = [folder = arguments.truth](std::int64_t frame, const Image<Rgb8>& /*left*/) {
+  options.known = [folder = arguments.truth](std::int64_t frame, const StereoPair& /*eyes*/) {
     return read_known_frame(folder, frame);
   };
   for (const char* file :
        {"left_disparity_%04d.pfm", "right_disparity_%04d.pfm", "flow_forward_%04d.flo", "flow_backward_%04d.flo"})
     options.made_from.push_back(fs::path(arguments.truth) / file);
+}
+
+/// The depth and the motion that a renderer noted in the film's pictures.
+void take_passes(const RotoscopeArguments& arguments, const FilmFiles& film, const Session& session,
+                 RotoscopeFilmOptions& options) {
+  if (!uses_passes(arguments)) return;
+  if (!session.ranks.alone())
+    throw Error(ErrorKind::wrong_usage,
+                fmt::format("{}: its depth is read in one process, not under mpirun; --passes none matches it instead",
+                            film.film.string()));
+  options.known = known_of_rendered_film(film.film, options.reading);
+  options.made_by += " with its passes";
+  remark(session, fmt::format("{}: its depth, and its motion if it has any, are taken from its passes; --passes none "
+                              "estimates them",
+                              film.film.string()));
 }
 
 /// The film; or a model as a film, whose exact geometry goes into the options.
@@ -325,6 +341,7 @@ Report run_rotoscope(const RotoscopeArguments& given, const Session& session) {
   StereoFilmReader source = open_source(arguments, film, session, options);
   const bool has_one_eye = !has_depth(arguments.depth) && source.layout() == StereoLayout::mono && film.right.empty();
   if (has_depth(arguments.depth)) take_depth(arguments, film, source, options);
+  take_passes(arguments, film, session, options);
   if (has_one_eye) refuse_for_one_eye(arguments, film);
   take_mask(arguments.mask, film, source, session, options);
   if (!arguments.shots.file.empty())

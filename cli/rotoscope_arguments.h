@@ -29,6 +29,7 @@ struct RotoscopeArguments {
   int frame_step = 1;
   std::optional<Rational> rate;
   std::string truth;
+  std::string passes = "auto";
   DisplayArguments display;
   std::string flow_values = "255";
   DepthArguments depth;
@@ -44,6 +45,9 @@ struct RotoscopeArguments {
 
 /// Whether the film is made of a model of triangles.
 bool is_of_model(const RotoscopeArguments& arguments);
+
+/// Whether the film has depth by a renderer, and that is used.
+bool uses_passes(const RotoscopeArguments& arguments);
 
 /// Whether the output is only marks.
 bool writes_marks(const RotoscopeArguments& arguments);

@@ -6,6 +6,7 @@
 #include "film_argument.h"
 #include "rotoscope_arguments.h"
 #include "stereo_arguments.h"
+#include "wheatstone/app/rendered_film.h"
 
 namespace wheatstone::cli {
 namespace {
@@ -20,6 +21,7 @@ Reason of_film(const RotoscopeArguments& a) {
 Reason with_exact_motion(const RotoscopeArguments& a) {
   return [&a]() -> std::string {
     if (is_of_model(a)) return "on a model of triangles, whose flow and disparity are exact";
+    if (uses_passes(a)) return "on pictures with a renderer's depth and motion; --passes none ignores these";
     return a.truth.empty() ? "" : "with --truth; the exact flow and disparity are read";
   };
 }
@@ -54,6 +56,7 @@ Rows film_rows(RotoscopeArguments& a) {
 std::string known_depth(const RotoscopeArguments& a) {
   if (is_of_model(a)) return "on a model of triangles";
   if (!a.truth.empty()) return "with --truth";
+  if (uses_passes(a)) return "on pictures with a renderer's depth";
   return has_depth(a.depth) ? "with " + option_of(a.depth) : "";
 }
 
@@ -62,6 +65,8 @@ Reason with_depth(const RotoscopeArguments& a) {
     return has_depth(a.depth) ? fmt::format("with {}; it works where there are two eyes", option_of(a.depth)) : "";
   };
 }
+
+constexpr std::array<std::string_view, 2> uses_of_passes{"auto", "none"};
 
 Rows time_rows(RotoscopeArguments& a) {
   RotoscopeOptions& frames = a.options.frames;
@@ -112,6 +117,10 @@ Rows time_rows(RotoscopeArguments& a) {
        row("--on-twos", flag(a.options.on_twos),
            "Make a new painting for every second frame only, and show it twice, as in hand-drawn films", {truth}),
        row("--frame-by-frame", flag(frames.anew), "Paint every frame separately, which flickers; for comparison"),
+       row("--passes", name(a.passes, uses_of_passes),
+           "Depth and motion that a renderer such as Blender notes in numbered OpenEXR of two views: auto uses them "
+           "instead of estimates, none does not",
+           {of_film(a), with_depth(a)}),
        row("--truth", text(a.truth),
            "Folder of 'synth film' whose exact flow and disparities are used instead of estimates",
            {with_depth(a), of_film(a)})});
@@ -120,6 +129,10 @@ Rows time_rows(RotoscopeArguments& a) {
 }  // namespace
 
 bool is_of_model(const RotoscopeArguments& arguments) { return wheatstone::is_model(arguments.film); }
+
+bool uses_passes(const RotoscopeArguments& a) {
+  return a.passes == "auto" && a.truth.empty() && a.right.empty() && is_rendered_film(a.film);
+}
 
 bool writes_marks(const RotoscopeArguments& arguments) { return fs::path(arguments.output).extension() == ".wst"; }
 

@@ -129,8 +129,8 @@ TEST(FilmDepth, ADepthFilmThatWasStoppedWithIsGoneOnWithByteForByte) {
     StereoFilmReader source = open_stereo_film(folder / "a.mkv", StereoLayout::mono);
     const FilmDepth depth =
         depth_of_film(folder / "d.mkv", {folder / "a.mkv", source.facts(), options.reading}, DepthKind::inverse);
-    options.known = [depth](std::int64_t frame, const Image<Rgb8>& left) {
-      return KnownFrame{{}, {}, depth(frame, left)};
+    options.known = [depth](std::int64_t frame, const StereoPair& eyes) {
+      return KnownFrame{{}, {}, depth(frame, eyes.left)};
     };
     return rotoscope_film(source, folder / name, options, progress);
   };

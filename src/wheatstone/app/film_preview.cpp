@@ -140,10 +140,15 @@ class PreviewWork {
   void look_at(PreviewedShot& shot, std::int64_t number, StereoFrame& frame) {
     share_ = static_cast<double>(number) / static_cast<double>(shots_.back().end);
     // Depth and mask of a frame are asked for once.
-    if (options_.known)
-      small_.known = whole_.known = [known = options_.known(number, frame.left)](std::int64_t, const Image<Rgb8>&) {
-        return known;
-      };
+    if (options_.known) {
+      StereoPair eyes{std::move(frame.left), std::move(frame.right)};
+      const KnownFrame known = options_.known(number, eyes);
+      frame.left = std::move(eyes.left);
+      frame.right = std::move(eyes.right);
+      whole_.known = [known](std::int64_t, const StereoPair&) { return known; };
+      // Geometry and flow are of whole frames; depth fits frames of any size.
+      small_.known = known.depth ? whole_.known : KnownFrames();
+    }
     if (options_.mask) {
       FrameMask mask = options_.mask(number, frame.left);
       FrameMask of_third{mask_of_picture(third(picture_of_mask(mask.left))),

@@ -123,10 +123,10 @@ TEST_F(PreviewedFilm, OfMasksDepthAndDisplaysIsMade) {
   options_.frames.display = FilmDisplay{.views = {.views = 4, .width = 48, .height = 32}, .quilt = QuiltLayout{2, 2}};
   options_.writing.layout = StereoLayout::mono;
   EXPECT_EQ(preview("quilts.png").shots, 3);
-  options_.known = [next = std::int64_t{0}](std::int64_t frame, const Image<Rgb8>& left) mutable {
+  options_.known = [next = std::int64_t{0}](std::int64_t frame, const StereoPair& eyes) mutable {
     EXPECT_GE(frame, next) << "frames are asked for once, in their order";
     next = frame + 1;
-    return KnownFrame{{}, {}, Image<float>(left.width(), left.height(), 1)};
+    return KnownFrame{{}, {}, Image<float>(eyes.left.width(), eyes.left.height(), 1)};
   };
   film_.layout = StereoLayout::mono;
   EXPECT_EQ(preview("depth.png").shots, 3);

@@ -192,9 +192,9 @@ TEST_F(SharedFilm, IsGoneOnWithByAnyNumber) {
 
 TEST_F(SharedFilm, OfWhichARankFailsLeavesNothing) {
   RotoscopeFilmOptions options = usual();
-  options.known = [](std::int64_t frame, const Image<Rgb8>& left) -> KnownFrame {
+  options.known = [](std::int64_t frame, const StereoPair& eyes) -> KnownFrame {
     if (frame == 4) throw Error(ErrorKind::bad_input, "frame 4 is damaged");
-    return {.geometry = {}, .depth = Image<float>(left.width(), left.height(), 1)};
+    return {.geometry = {}, .depth = Image<float>(eyes.left.width(), eyes.left.height(), 1)};
   };
   options.marks = file("failed_%d.wst");
   expect_error(ErrorKind::bad_input, "frame 4 is damaged", [&] { painted_by(2, file("failed.mkv"), options); });

@@ -142,7 +142,7 @@ ModelFilm film_of_model(ReadyModel model, ParticleFramesOptions options, Rationa
   // A std::function can be copied; a model need not be.
   const auto frames = std::make_shared<SeenFrames>(std::move(model), std::move(options));
   return {made_film(size, count, rate, [frames](std::int64_t frame) { return frames->at(frame).pictures; }),
-          [frames](std::int64_t frame, const Image<Rgb8>& /*left*/) { return frames->known(frame); }};
+          [frames](std::int64_t frame, const StereoPair& /*eyes*/) { return frames->known(frame); }};
 }
 
 }  // namespace wheatstone

@@ -34,7 +34,7 @@ ModelPictures model_pictures(const ReadyModel& model, const RenderParticlesOptio
 /// surface also where the other frame hides it.
 struct ModelFilm {
   StereoFilmReader source;
-  std::function<KnownFrame(std::int64_t frame, const Image<Rgb8>& left)> known;
+  KnownFrames known;
 };
 
 /// CarryOptions::length_tolerance for such a film: on surfaces that turn towards the eyes strokes grow, to twice their

@@ -155,7 +155,8 @@ TEST(ModelFilm, SkippedFramesChangeNothing) {
   ASSERT_TRUE(later.source.read(frame));
   EXPECT_EQ(frame.left, expected.left);
   EXPECT_EQ(frame.pts, 2);
-  EXPECT_EQ(later.known(2, frame.left).flow->forward.x, whole.known(2, expected.left).flow->forward.x);
+  EXPECT_EQ(later.known(2, {frame.left, frame.right}).flow->forward.x,
+            whole.known(2, {expected.left, expected.right}).flow->forward.x);
   EXPECT_EQ(later.source.skip(100), 9);
   EXPECT_FALSE(later.source.read(frame));
 }
@@ -179,7 +180,7 @@ PaintedTurntable paint_turntable(const Model& model, int frames, bool anew) {
   Image<Rgb8> source_before, painted_before;
   StereoFrame frame;
   for (int i = 0; i < frames && made.source.read(frame); ++i) {
-    const KnownFrame known = made.known(i, frame.left);
+    const KnownFrame known = made.known(i, {frame.left, frame.right});
     const RotoscopedFrame painted = rotoscope_frame({frame.left, frame.right}, options, state, &known);
     const Image<Rgb8>& left = std::get<StereoPair>(painted.pictures).left;
     if (i > 0) {

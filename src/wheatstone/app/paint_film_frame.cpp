@@ -25,7 +25,7 @@ PaintedFilmFrame paint_film_frame(StereoFrame& frame, const RotoscopeFilmOptions
   const std::int64_t number = state.shot.frames;
   const double at_s = seconds_of(frame);
   std::optional<KnownFrame> known;
-  if (options.known) known = options.known(number, eyes.left);
+  if (options.known) known = options.known(number, eyes);
   if (known && known->flow && !options.ranks.alone())
     throw Error(ErrorKind::wrong_usage, "frames whose flow is known are painted in one process, not under mpirun");
   std::optional<FrameMask> mask;

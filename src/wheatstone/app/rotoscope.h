@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -70,6 +71,9 @@ struct KnownFrame {
   /// The depth of a frame of one eye, instead of the geometry, as disparity_from_depth takes it.
   std::optional<Image<float>> depth = std::nullopt;
 };
+
+/// Gives what is known of a film's frames, counted from 0; the right eye's picture is empty where there is one eye.
+using KnownFrames = std::function<KnownFrame(std::int64_t frame, const StereoPair& eyes)>;
 
 /// Sums over the frames of a film so far; a cut's first frame has nothing to be compared with.
 struct RotoscopeTotals {

@@ -38,9 +38,8 @@ struct RotoscopeFilmOptions {
   std::string made_by;      ///< the program's version and whatever else decides the frames
   std::vector<std::filesystem::path> made_from;  ///< the sources' files
   std::int64_t expected_frames = 0;              ///< of all, for telling how long it takes; 0: not known
-  /// Returns what is known of a frame, counted from 0; empty: nothing is known.
-  std::function<KnownFrame(std::int64_t frame, const Image<Rgb8>& left)> known;
-  FilmMask mask;  ///< where frames are painted; empty: everywhere
+  KnownFrames known;                             ///< empty: nothing is known
+  FilmMask mask;                                 ///< where frames are painted; empty: everywhere
   /// Several ranks paint the film together: each paints whole scenes, and the first writes the film, with the same
   /// bytes. In this case `scenes` are the film's (find_scenes), or begin with cuts_of its shots, and `known`
   /// gives no flow.
