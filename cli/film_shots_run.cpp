@@ -87,7 +87,8 @@ Report run_list(const ShotsArguments& arguments, const FilmFiles& film, const Fi
                       {"frames", shot.frames},
                       {"begin_s", shot.begin_s},
                       {"length_s", shot.length_s},
-                      {"thumbnail", shot.thumbnail}});
+                      {"thumbnail", shot.thumbnail},
+                      {"mixed_before", shot.mixed_before}});
   return {{{"output", arguments.list},
            {"shots", listed, fmt::format("shots            {}", shots.size())},
            only_text(fmt::format("written to       {}, with a picture of each shot beside it", arguments.list))}};

@@ -9,7 +9,8 @@
 
 namespace wheatstone {
 
-FilmScenes find_scenes(StereoFilmReader& film, const Ranks& ranks, const Progress& progress) {
+FilmScenes find_scenes(StereoFilmReader& film, const Ranks& ranks, const Progress& progress,
+                       const std::function<void(const StereoFrame& frame, bool is_cut)>& look) {
   // Frames are compared in runs, which ranks take in turn.
   constexpr std::int64_t run = 16;
   std::vector<std::int64_t> cuts;
@@ -21,7 +22,9 @@ FilmScenes find_scenes(StereoFilmReader& film, const Ranks& ranks, const Progres
     if (next < from) next += film.skip(from - next);
     for (; next >= from && next < first + run && film.read(frame); ++next) {
       report(progress, "looking for cuts", share_of_film(film.facts(), next));
-      if (next > from && find_cut(before.left, frame.left).cut) cuts.push_back(next);
+      const bool is_cut = next > from && find_cut(before.left, frame.left).cut;
+      if (is_cut) cuts.push_back(next);
+      if (look) look(frame, is_cut);
       std::swap(before, frame);
     }
     if (next < first + run) break;

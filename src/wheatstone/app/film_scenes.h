@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "wheatstone/progress.h"
@@ -16,8 +17,10 @@ struct FilmScenes {
 };
 
 /// Reads a film to its end and tells its cuts, as rotoscope_frame does. Ranks share the looking: each decodes all
-/// frames and compares some of them. Throws as the reader does.
-FilmScenes find_scenes(StereoFilmReader& film, const Ranks& ranks = {}, const Progress& progress = {});
+/// frames and compares some of them. `look` gets each frame that this rank compares, in order, and whether a cut is
+/// before it. Throws as the reader does.
+FilmScenes find_scenes(StereoFilmReader& film, const Ranks& ranks = {}, const Progress& progress = {},
+                       const std::function<void(const StereoFrame& frame, bool is_cut)>& look = {});
 
 /// Frames of one scene, which one rank paints.
 struct ScenePart {

@@ -38,6 +38,35 @@ TEST(ListShots, NamesEachShotAndShowsItsMiddleFrame) {
   EXPECT_TRUE(fs::exists(folder / "cuts_003.jpg"));
 }
 
+TEST(ListShots, BeginsAShotAfterADissolve) {
+  const TemporaryFolder folder;
+  const Image<Rgb8> first = eyes_of_scenes(0, {}).left;
+  Image<Rgb8> second = first;
+  std::ranges::reverse(second.pixels());
+  FilmWriter writer(folder / "a.mkv", {.codec = "ffv1"});
+  for (int i = 0; i < 36; ++i) {
+    const double share = std::clamp((i - 11) / 13., 0., 1.);  // frames 12 to 23 are mixtures
+    Frame frame{first, i, {1, 25}, 1};
+    std::ranges::transform(first.pixels(), second.pixels(), frame.picture.pixels().begin(), [&](Rgb8 from, Rgb8 to) {
+      const auto level = [&](std::uint8_t a, std::uint8_t b) {
+        return static_cast<std::uint8_t>(std::lround(a + share * (b - a)));
+      };
+      return Rgb8{level(from.r, to.r), level(from.g, to.g), level(from.b, to.b)};
+    });
+    writer.write(frame);
+  }
+  writer.finish();
+  const std::vector<FoundShot> shots = list_shots({folder / "a.mkv", {}, StereoLayout::mono}, {}, folder / "cuts.toml");
+  ASSERT_EQ(shots.size(), 2u);
+  EXPECT_EQ(shots[1].begin, 24);
+  EXPECT_EQ(shots[1].mixed_before, 12);
+  EXPECT_EQ(shots[0].frames, 24);
+  EXPECT_EQ(shots[1].frames, 12);
+  EXPECT_THAT(bytes_of(folder / "cuts.toml"),
+              HasSubstr("[[shot]]  # 2: from 0:00.960 on, 12 frames, 0.480 s, cuts_002.jpg, after a dissolve of 12 "
+                        "frames\nbegin = 25\n"));
+}
+
 TEST(ListShots, TellsHowFarItHasLooked) {
   const TemporaryFolder folder;
   make_film_of_three_shots(folder / "a.mkv");

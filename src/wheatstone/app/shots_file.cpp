@@ -246,14 +246,14 @@ std::string shots_file_text(std::span<const FoundShot> shots) {
   for (std::size_t i = 0; i < shots.size(); ++i) {
     const FoundShot& shot = shots[i];
     text += fmt::format(
-        "\n[[shot]]  # {}: from {} on, {} frame{}, {:.3f} s, {}\n"
+        "\n[[shot]]  # {}: from {} on, {} frame{}, {:.3f} s, {}{}\n"
         "begin = {}\n"
         "# style = \"oil\"\n"
         "# radii = [8, 4, 2]\n"
         "# depth-budget = \"3%\"\n"
         "# zero-parallax = 0\n",
         i + 1, film_time_text(shot.begin_s), shot.frames, shot.frames == 1 ? "" : "s", shot.length_s, shot.thumbnail,
-        shot.begin + 1);
+        shot.mixed_before > 0 ? fmt::format(", after a dissolve of {} frames", shot.mixed_before) : "", shot.begin + 1);
   }
   return text;
 }

@@ -23,6 +23,8 @@ struct FoundShot {
   double begin_s = 0;       ///< time of its first frame
   double length_s = 0;
   std::string thumbnail;  ///< name of the picture beside the file
+  /// The film dissolves into the shot: how many frames before its first are mixtures, which belong to the shot before.
+  std::int64_t mixed_before = 0;
 };
 
 /// Shots as a shots file that changes nothing: what may be set for a shot stands there as a comment.
