@@ -68,13 +68,35 @@ Cloud first_of_type(const std::filesystem::path& path, const CloudChoice& choice
   }
 }
 
+/// Throws where no type has one of the condition's quantities, what the first type says.
+void check_quantities(const std::filesystem::path& path, const CloudChoice& choice) {
+  for (const std::string& name : choice.where->names) {
+    CloudChoice of_type = choice;
+    of_type.type_colours.clear();
+    of_type.where = Condition{{name}, {{Condition::Kind::equal, {{{0, 0}, {0, 0}}}}}};
+    std::optional<Error> lacking;
+    const bool is_known = std::ranges::any_of(choice.type_colours, [&](const TypeColour& type) {
+      of_type.type = type.type;
+      try {
+        return first_of_type(path, of_type).size() > 0;
+      } catch (const Error& error) {
+        if (!lacking) lacking = error;
+        return false;
+      }
+    });
+    if (!is_known && lacking) throw Error(*lacking);
+  }
+}
+
 }  // namespace
 
 CloudSource open_types(const std::filesystem::path& path, const CloudChoice& choice) {
   auto types = std::make_shared<TypesInTurn>();
   types->of_all.fill(true);
+  if (choice.where) check_quantities(path, choice);
   CloudChoice of_type = choice;
   of_type.type_colours.clear();
+  of_type.where_may_lack = true;
   CloudSource source;
   std::uint64_t count = 0;
   std::set<int> numbers;

@@ -44,8 +44,10 @@ struct CloudChoice {
   std::string quantity;
   /// Which particles are to be kept: told in Cloud::chosen, by which select_particles keeps them. Its quantities are
   /// named as `quantity`, in small letters or capitals; what the file does not have is the cloud's own column of that
-  /// name: x, y, z, density, temperature, smoothing_length, mass, quantity.
+  /// name: x, y, z, density, temperature, smoothing_length, mass, quantity. Of several types, one must have each
+  /// quantity; for the others it is not a number (NaN).
   std::optional<Condition> where;
+  bool where_may_lack = false;  ///< quantities that the file does not have are not a number, instead of an error
   /// What the positions are to be relative to (Cloud::origin), where it is known which part of the file is looked at;
   /// else it is chosen from the first particles.
   std::optional<std::array<double, 3>> origin;

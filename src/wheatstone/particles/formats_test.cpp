@@ -471,8 +471,15 @@ TEST(TypesOfASnapshot, FollowEachOtherWithColoursAndWhatAllOfThemHave) {
   EXPECT_EQ(source.next(5).size(), 0u);
   choice.where = parse_condition("ID > 8");
   EXPECT_THAT(read_cloud(folder / "snap", choice).chosen, ElementsAre(1, 0, 1));
-  choice.where = parse_condition("temperature > 8");
-  expect_error(ErrorKind::bad_input, "no quantity 'temperature', but POS, VEL",
+  // What only one type has is not a number for the others.
+  choice.where = parse_condition("Density > 15");
+  EXPECT_THAT(read_cloud(folder / "snap", choice).chosen, ElementsAre(0, 0, 1));
+  choice.where = parse_condition("not (Density > 15)");
+  EXPECT_THAT(read_cloud(folder / "snap", choice).chosen, ElementsAre(1, 1, 0));
+  choice.where = parse_condition("ID > 0 and (Density != 10 or ID > 8)");
+  EXPECT_THAT(read_cloud(folder / "snap", choice).chosen, ElementsAre(1, 0, 1));
+  choice.where = parse_condition("metals > 8");
+  expect_error(ErrorKind::bad_input, "no quantity 'metals', but POS, VEL",
                [&] { read_cloud(folder / "snap", choice); });
   expect_error(ErrorKind::bad_input, "for particles of type 'halo'", [&] { read_cloud(folder / "snap", choice); });
   expect_error(ErrorKind::bad_input, "no particles of type 'stars'", [&] {

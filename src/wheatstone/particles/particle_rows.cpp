@@ -140,6 +140,7 @@ struct RowsInTurn {
   RowReader next;
   std::optional<std::array<double, 3>> origin;
   std::optional<Condition> where;
+  bool where_may_lack;
   std::string path;
   std::vector<std::string> fields;
   ParticleRows rows = {};  ///< those that were read but not given yet; empty ones have memory
@@ -165,7 +166,7 @@ struct RowsInTurn {
   Cloud marked_cloud_of(ParticleRows& some) const {
     std::vector<QuantityColumn> named = std::exchange(some.named, {});
     Cloud cloud = cloud_of(some, *origin);
-    if (where) mark_chosen(cloud, *where, std::move(named), path, fields);
+    if (where) mark_chosen(cloud, *where, std::move(named), path, fields, where_may_lack);
     return cloud;
   }
 
@@ -191,6 +192,7 @@ void give_rows(RowReader next, const std::filesystem::path& path, const CloudCho
   auto reading = std::make_shared<RowsInTurn>(RowsInTurn{.next = std::move(next),
                                                          .origin = choice.origin,
                                                          .where = choice.where,
+                                                         .where_may_lack = choice.where_may_lack,
                                                          .path = path.string(),
                                                          .fields = source.fields});
   source.next = [reading](std::size_t most) { return reading->read(most); };

@@ -154,12 +154,14 @@ QuantityColumn own_column(const Cloud& cloud, const std::string& name) {
 }  // namespace
 
 void mark_chosen(Cloud& cloud, const Condition& where, std::vector<QuantityColumn> of_file, const std::string& name,
-                 std::span<const std::string> fields) {
+                 std::span<const std::string> fields, bool may_lack) {
   if (cloud.size() == 0) return;
   of_file.resize(where.names.size());
   for (std::size_t i = 0; i < of_file.size(); ++i) {
     if (of_file[i].values.empty()) of_file[i] = own_column(cloud, where.names[i]);
-    if (of_file[i].values.empty()) refuse_quantity(cloud, where.names[i], name, fields);
+    if (!of_file[i].values.empty()) continue;
+    if (!may_lack) refuse_quantity(cloud, where.names[i], name, fields);
+    of_file[i].values.assign(cloud.size(), std::numeric_limits<double>::quiet_NaN());
   }
   cloud.chosen = where_holds(where, of_file, cloud.size());
 }

@@ -40,9 +40,10 @@ struct SelectionCounts {
 
 /// Puts into Cloud::chosen where the condition holds. `of_file` holds the columns that a file has under the condition's
 /// names, in their order; where one is empty, the cloud's own column of that name counts (CloudChoice::where). Throws
-/// Error{bad_input} that begins with `name`, where there is neither; `fields` are the names that the file has.
+/// Error{bad_input} that begins with `name`, where there is neither, unless it `may_lack`: then it is not a number.
+/// `fields` are the names that the file has.
 void mark_chosen(Cloud& cloud, const Condition& where, std::vector<QuantityColumn> of_file, const std::string& name,
-                 std::span<const std::string> fields);
+                 std::span<const std::string> fields, bool may_lack = false);
 
 /// Keeps the chosen particles, in place and in order.
 void keep_chosen(Cloud& cloud);
