@@ -209,7 +209,7 @@ void take_passes(const RotoscopeArguments& arguments, const FilmFiles& film, con
     throw Error(ErrorKind::wrong_usage,
                 fmt::format("{}: its depth is read in one process, not under mpirun; --passes none matches it instead",
                             film.film.string()));
-  options.known = known_of_rendered_film(film.film, options.reading);
+  options.known = known_of_rendered_film(film.film, options.reading, !options.on_twos);
   options.made_by += " with its passes";
   remark(session, fmt::format("{}: its depth, and its motion if it has any, are taken from its passes; --passes none "
                               "estimates them",
@@ -330,6 +330,7 @@ Report run_rotoscope(const RotoscopeArguments& given, const Session& session) {
   }
   arguments.options.anaglyph = arguments.output_layout.anaglyph;
   const bool is_preview = !arguments.shots.preview.empty();
+  if (is_preview && !arguments.given("--output")) arguments.output = "painted.mkv";  // holds every codec
   if (arguments.options.plan.empty() && !is_preview) tell_what_film_keeps(arguments.output, arguments.options.marks);
   RotoscopeFilmOptions options = arguments.options;
   take_truth(arguments, session, options);
@@ -346,6 +347,8 @@ Report run_rotoscope(const RotoscopeArguments& given, const Session& session) {
   take_mask(arguments.mask, film, source, session, options);
   if (!arguments.shots.file.empty())
     options.shots = shots_from(arguments.shots, film, options, {writes_marks(arguments), has_one_eye}, session);
+  for (const FilmShot& shot : options.shots)
+    for (const DetailKey& detail : shot.details) options.made_from.push_back(detail.map);
   if (session.verbose && film.right.empty())
     remark(session, fmt::format("layout: {} ({})", layout_name(source.layout()), source.layout_how()));
   options.made_by += fmt::format(" from {}", layout_name(source.layout()));

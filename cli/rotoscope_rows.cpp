@@ -7,6 +7,7 @@
 #include "rotoscope_arguments.h"
 #include "stereo_arguments.h"
 #include "wheatstone/app/rendered_film.h"
+#include "wheatstone/video/film_files.h"
 
 namespace wheatstone::cli {
 namespace {
@@ -18,11 +19,18 @@ Reason of_film(const RotoscopeArguments& a) {
   return when([&a] { return is_of_model(a); }, "on a model of triangles; it works on films");
 }
 
-Reason with_exact_motion(const RotoscopeArguments& a) {
+/// Where the frames that are painted, and what is known of them, are given.
+Reason with_given_frames(const RotoscopeArguments& a) {
   return [&a]() -> std::string {
     if (is_of_model(a)) return "on a model of triangles, whose flow and disparity are exact";
-    if (uses_passes(a)) return "on pictures with a renderer's depth and motion; --passes none ignores these";
     return a.truth.empty() ? "" : "with --truth; the exact flow and disparity are read";
+  };
+}
+
+Reason with_exact_motion(const RotoscopeArguments& a) {
+  return [&a]() -> std::string {
+    if (uses_passes(a)) return "on pictures with a renderer's depth and motion; --passes none ignores these";
+    return with_given_frames(a)();
   };
 }
 
@@ -115,7 +123,8 @@ Rows time_rows(RotoscopeArguments& a) {
        row("--zero-parallax", number(frames.zero_parallax_px, zero_parallax_range),
            "Disparity in pixels that lies on the screen plane; chosen from the depth by default", {of_marks, masked}),
        row("--on-twos", flag(a.options.on_twos),
-           "Make a new painting for every second frame only, and show it twice, as in hand-drawn films", {truth}),
+           "Make a new painting for every second frame only, and show it twice, as in hand-drawn films",
+           {with_given_frames(a)}),
        row("--frame-by-frame", flag(frames.anew), "Paint every frame separately, which flickers; for comparison"),
        row("--passes", name(a.passes, uses_of_passes),
            "Depth and motion that a renderer such as Blender notes in numbered OpenEXR of two views: auto uses them "
@@ -131,7 +140,10 @@ Rows time_rows(RotoscopeArguments& a) {
 bool is_of_model(const RotoscopeArguments& arguments) { return wheatstone::is_model(arguments.film); }
 
 bool uses_passes(const RotoscopeArguments& a) {
-  return a.passes == "auto" && a.truth.empty() && a.right.empty() && is_rendered_film(a.film);
+  if (a.passes != "auto" || !a.truth.empty() || !a.right.empty() || (a.layout && *a.layout != StereoLayout::left_right))
+    return false;
+  std::error_code ignored;
+  return is_rendered_film(fs::is_directory(a.film, ignored) ? find_film(a.film).film : fs::path(a.film));
 }
 
 bool writes_marks(const RotoscopeArguments& arguments) { return fs::path(arguments.output).extension() == ".wst"; }

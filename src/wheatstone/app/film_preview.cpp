@@ -86,11 +86,11 @@ RotoscopeFilmOptions without_dissolves(RotoscopeFilmOptions options) {
   return options;
 }
 
-/// The bytes of all that is in a folder.
+/// The bytes of the files in a folder.
 double bytes_in(const fs::path& folder) {
   double bytes = 0;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder))
-    bytes += static_cast<double>(entry.file_size());
+    if (entry.is_regular_file()) bytes += static_cast<double>(entry.file_size());
   return bytes;
 }
 

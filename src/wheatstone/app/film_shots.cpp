@@ -46,7 +46,7 @@ const MovableParameter* find_movable_parameter(std::string_view name) {
 }
 
 RotoscopeOptions options_of_shot(const RotoscopeOptions& options, const FilmShot& shot, double at_s) {
-  static_assert(field_count<FilmShot>() == 6);
+  static_assert(field_count<FilmShot>() == 7);
   RotoscopeOptions of_frame = options;
   of_frame.style = shot.style;
   of_frame.depth_budget = shot.depth_budget;
@@ -65,6 +65,8 @@ RotoscopeOptions options_of_frame(const RotoscopeOptions& options, std::span<con
   const FilmShot& shot = *shot_of(shots, frame);
   RotoscopeOptions of_frame = options_of_shot(options, shot, at_s);
   of_frame.scene_begins = shot.begin == frame;
+  if (const auto key = std::ranges::find(shot.details, frame, &DetailKey::frame); key != shot.details.end())
+    of_frame.detail_map = key->map;
   return of_frame;
 }
 

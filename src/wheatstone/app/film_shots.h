@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <span>
 #include <string>
@@ -38,6 +39,12 @@ struct MovingParameter {
   std::vector<ParameterKey> keys;  ///< at least one, in the order of their times
 };
 
+/// A picture that says how finely the places of a frame are painted (RotoscopeOptions::detail_map).
+struct DetailKey {
+  std::int64_t frame = 0;  ///< counted from 0
+  std::filesystem::path map;
+};
+
 /// A part of a film that is a scene, and how it is painted.
 struct FilmShot {
   std::int64_t begin = 0;  ///< frame, counted from 0
@@ -47,6 +54,7 @@ struct FilmShot {
   std::vector<MovingParameter> moving = {};  ///< each instead of the member above
   /// From `begin` on, in which the shot before it is painted, too, and fades out; 0: a cut. The first shot has none.
   std::int64_t dissolve_frames = 0;
+  std::vector<DetailKey> details = {};  ///< in the order of their frames; each holds until the next one
 };
 
 /// How a frame of a shot is painted that is shown at `at_s`; not its first one.

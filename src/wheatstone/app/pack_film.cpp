@@ -17,7 +17,8 @@ namespace {
 
 /// The eyes' pictures with 16 bits a channel as the film has them; empty where there are none.
 Image<Rgb16> deep_of(const StereoFrame& frame, StereoLayout layout, const PackFilmOptions& options) {
-  if (frame.left_deep.empty() || options.shift_px != 0 || !options.anaglyph.empty()) return {};
+  if (frame.left_deep.empty() || frame.right_deep.empty() || options.shift_px != 0 || !options.anaglyph.empty())
+    return {};
   if (options.swap) return put_together(frame.right_deep, frame.left_deep, layout);
   return put_together(frame.left_deep, frame.right_deep, layout);
 }

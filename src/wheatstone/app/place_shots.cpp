@@ -13,6 +13,8 @@
 namespace wheatstone {
 namespace {
 
+namespace fs = std::filesystem;
+
 /// A frame that a shots file names, in a film: nothing before it is found.
 struct Place {
   std::optional<std::int64_t> frame;  ///< counted from 1
@@ -159,6 +161,23 @@ std::vector<MovingParameter> moving_parameters(const WrittenShot& shot, const Sh
   return moving;
 }
 
+/// A detail map of a shot, at a frame of the whole film.
+struct PlacedDetail {
+  std::int64_t frame = 0;  ///< counted from 0
+  std::int64_t pts = 0;
+  fs::path map;
+};
+
+std::vector<PlacedDetail> details_of(const WrittenShot& shot, const ShotPlace& place) {
+  std::vector<PlacedDetail> details;
+  const auto add = [&](const Place& at, const fs::path& map) {
+    if (!map.empty()) details.push_back({*at.frame - 1, at.pts, map});
+  };
+  add(place, shot.detail_map);
+  for (std::size_t i = 0; i < shot.keys.size(); ++i) add(place.keys[i], shot.keys[i].detail_map);
+  return details;
+}
+
 /// The shots as they lie in the whole film.
 std::vector<FilmShot> shots_at(std::span<const WrittenShot> shots, std::span<const ShotPlace> places) {
   std::vector<FilmShot> placed;
@@ -170,6 +189,8 @@ std::vector<FilmShot> shots_at(std::span<const WrittenShot> shots, std::span<con
     shot.begin = *places[i].frame - 1;
     shot.moving = moving_parameters(shots[i], places[i]);
     shot.dissolve_frames = *places[i].dissolved.frame - *places[i].frame;
+    for (const PlacedDetail& detail : details_of(shots[i], places[i]))
+      shot.details.push_back({detail.frame, detail.map});
   }
   return placed;
 }
@@ -191,6 +212,7 @@ std::vector<FilmShot> place_shots(std::span<const WrittenShot> shots, const Film
   StereoFilmReader part = open_film(film, reading);
   std::size_t shot = 0;
   std::int64_t number = 0;
+  std::vector<PlacedDetail> details;  ///< of the shot, that are not reached yet
   for (StereoFrame frame; part.read(frame); ++number) {
     report(progress, "looking for the shots", share_of_film(part.facts(), number));
     const std::size_t before = shot;
@@ -199,6 +221,14 @@ std::vector<FilmShot> place_shots(std::span<const WrittenShot> shots, const Film
       placed.push_back(in_whole[shot]);
       placed.back().begin = number;
       placed.back().dissolve_frames = 0;
+      placed.back().details.clear();
+      details = details_of(shots[shot], places[shot]);
+      // Where the map of a frame before the part lies now is not known.
+      if (number == 0) std::erase_if(details, [&](const PlacedDetail& detail) { return detail.pts < frame.pts; });
+    }
+    while (!details.empty() && details.front().pts <= frame.pts) {
+      placed.back().details.push_back({number, details.front().map});
+      details.erase(details.begin());
     }
     // Nothing is known of a shot that ends before the part begins.
     if (placed.size() > 1 && frame.pts < places[shot].dissolved.pts) ++placed.back().dissolve_frames;

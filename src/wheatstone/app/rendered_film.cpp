@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -29,12 +30,26 @@ Flow flow_of(Image<float> x, Image<float> y) {
   return {std::move(x), std::move(y)};
 }
 
-bool has_motion(const RenderedPasses& view) { return !view.before_x.empty() && !view.after_x.empty(); }
+bool tells_motion(const RenderedPasses& view) { return !view.before_x.empty() && !view.after_x.empty(); }
+
+Flow unknown_flow(const Image<float>& like) {
+  const Image<float> unknown(like.width(), like.height(), std::numeric_limits<float>::quiet_NaN());
+  return {unknown, unknown};
+}
+
+/// The disparities of a view; where no depth is known at all, it is infinitely far.
+Image<float> disparity_of(const Image<float>& depth, const DepthFit& fit) {
+  Image<float> disparity = disparity_of_depth(depth, fit);
+  if (std::ranges::none_of(disparity.pixels(), [](float px) { return std::isfinite(px); }))
+    disparity = Image<float>(depth.width(), depth.height(), static_cast<float>(fit.offset_px));
+  return disparity;
+}
 
 class FilmWithPasses {
  public:
-  FilmWithPasses(const fs::path& path, const FilmReaderOptions& reading)
-      : pattern_(*frame_pattern(path)), every_(reading.every) {
+  FilmWithPasses(const fs::path& path, const FilmReaderOptions& reading, bool has_motion)
+      // The motion of a single frame says nothing of frames that are left out.
+      : pattern_(*frame_pattern(path)), every_(reading.every), has_motion_(has_motion && every_ == 1) {
     constexpr double mercy_s = 0.0005;  // as the reader has
     first_ = numbers_without_hole(pattern_).front();
     if (reading.from_s)
@@ -44,31 +59,48 @@ class FilmWithPasses {
 
   KnownFrame known(std::int64_t frame, const StereoPair& eyes) {
     const fs::path file = file_of(frame);
-    std::vector<RenderedPasses> passes = read_rendered_passes(file);
+    std::vector<RenderedPasses> passes = passes_of(file);
     if (passes.size() != 2 || !same_size(passes.front().depth, eyes.left))
       refuse(file, fmt::format("has {} views of {}x{} pixels, expected the two eyes of the film", passes.size(),
                                passes.front().depth.width(), passes.front().depth.height()));
     const DepthFit fit = fit_of(frame, eyes, passes.front().depth);
     KnownFrame known;
     known.geometry =
-        geometry_from_both(disparity_of_depth(passes.front().depth, fit), disparity_of_depth(passes.back().depth, fit));
+        geometry_from_both(disparity_of(passes.front().depth, fit), disparity_of(passes.back().depth, fit));
     check(file, fit, known.geometry);
-    // The motion of a single frame says nothing of frames that are left out.
-    if (every_ != 1 || !has_motion(passes.front())) return known;
-    if (frame > 0) {
-      RenderedPasses before =
-          std::move(before_.first == frame - 1 ? before_.second : read_rendered_passes(file_of(frame - 1)).front());
-      if (has_motion(before))
-        known.flow = FlowPair{flow_of(std::move(before.after_x), std::move(before.after_y)),
-                              flow_of(passes.front().before_x, passes.front().before_y)};
-    }
-    before_ = {frame, std::move(passes.front())};
+    if (!has_motion_ || !tells_motion(passes.front())) return known;
+    if (frame > 0) known.flow = flow_to(frame, eyes.left, passes.front());
+    before_ = {frame, eyes.left, std::move(passes.front())};
     return known;
   }
 
  private:
   [[noreturn]] static void refuse(const fs::path& file, const std::string& why) {
     throw Error(ErrorKind::bad_input, fmt::format("{}: {}", file.string(), why));
+  }
+
+  static std::vector<RenderedPasses> passes_of(const fs::path& file) {
+    if (!has_rendered_passes(file))
+      refuse(file, "has no depth, expected it as in the first frame; --passes none ignores it");
+    return read_rendered_passes(file);
+  }
+
+  /// What is remembered of the left view of a frame.
+  struct LeftView {
+    std::int64_t frame = -1;
+    Image<Rgb8> picture;
+    RenderedPasses passes;
+  };
+
+  /// The flow from the frame before; none where that tells no motion, and unknown where a scene begins.
+  std::optional<FlowPair> flow_to(std::int64_t frame, const Image<Rgb8>& left, const RenderedPasses& now) {
+    if (before_.frame != frame - 1)
+      before_ = {frame - 1, std::move(read_multiview_exr(file_of(frame - 1)).front()),
+                 std::move(read_rendered_passes(file_of(frame - 1)).front())};
+    if (!tells_motion(before_.passes)) return {};
+    // A renderer that is asked for one scene after the other tells the motion within each.
+    if (find_cut(before_.picture, left).cut) return FlowPair{unknown_flow(now.depth), unknown_flow(now.depth)};
+    return FlowPair{flow_of(before_.passes.after_x, before_.passes.after_y), flow_of(now.before_x, now.before_y)};
   }
 
   fs::path file_of(std::int64_t frame) const { return pattern_.file(first_ + every_ * frame); }
@@ -107,7 +139,8 @@ class FilmWithPasses {
   FramePattern pattern_;
   std::int64_t first_ = 0;  ///< number of the first frame's file
   int every_;
-  std::pair<std::int64_t, RenderedPasses> before_{-1, {}};
+  bool has_motion_;
+  LeftView before_;
   std::optional<std::pair<std::int64_t, DepthFit>> fit_before_;
 };
 
@@ -120,9 +153,9 @@ bool is_rendered_film(const fs::path& pattern) {
   return !numbers.empty() && has_rendered_passes(frames->file(numbers.front()));
 }
 
-KnownFrames known_of_rendered_film(const fs::path& pattern, const FilmReaderOptions& reading) {
+KnownFrames known_of_rendered_film(const fs::path& pattern, const FilmReaderOptions& reading, bool has_motion) {
   // A std::function can be copied.
-  const auto film = std::make_shared<FilmWithPasses>(pattern, reading);
+  const auto film = std::make_shared<FilmWithPasses>(pattern, reading, has_motion);
   return [film](std::int64_t frame, const StereoPair& eyes) { return film->known(frame, eyes); };
 }
 

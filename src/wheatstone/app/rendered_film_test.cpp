@@ -130,6 +130,40 @@ TEST_F(RenderedFilm, OfADarkFrameHasTheCamerasOfTheOneBefore) {
   EXPECT_LT(rms(known.geometry.left_disparity, truth_of(1).geometry.left_disparity), 0.1);
 }
 
+TEST_F(RenderedFilm, HasItsCutsWhateverTheMotionSays) {
+  const TemporaryFolder folder;
+  write_rendered_frame(folder / "c_1.exr", views_of(0));
+  std::vector<RenderedView> other = views_of(1);
+  for (RenderedView& view : other)
+    for (Rgb8& pixel : view.picture.pixels())
+      pixel = {static_cast<std::uint8_t>(255 - pixel.b), pixel.r, static_cast<std::uint8_t>(255 - pixel.g)};
+  write_rendered_frame(folder / "c_2.exr", other);
+  const StereoPair eyes{other.front().picture, other.back().picture};
+  const KnownFrame known = known_of_rendered_film(folder / "c_%d.exr", {})(1, eyes);
+  ASSERT_TRUE(known.flow);
+  EXPECT_TRUE(std::ranges::all_of(known.flow->backward.x.pixels(), [](float px) { return std::isnan(px); }));
+  EXPECT_FALSE(known_of_rendered_film(folder / "c_%d.exr", {}, false)(1, eyes).flow);
+}
+
+TEST_F(RenderedFilm, WithoutAnyDepthIsInfinitelyFar) {
+  const TemporaryFolder folder;
+  write_rendered_frame(folder / "z_1.exr", views_of(0));
+  std::vector<RenderedView> black = views_of(1);
+  for (RenderedView& view : black) {
+    view.picture = Image<Rgb8>(240, 136);
+    view.depth = Image<float>(240, 136);
+  }
+  write_rendered_frame(folder / "z_2.exr", black);
+  const KnownFrame known =
+      known_of_rendered_film(folder / "z_%d.exr", {})(1, {black.front().picture, black.back().picture});
+  for (const float px : known.geometry.left_disparity.pixels()) ASSERT_NEAR(px, cameras.offset_px, 0.1);
+  for (RenderedView& view : black) view.depth = {};
+  write_rendered_frame(folder / "z_2.exr", black);
+  expect_error(ErrorKind::bad_input, "z_2.exr: has no depth, expected it as in the first frame", [&] {
+    known_of_rendered_film(folder / "z_%d.exr", {})(1, {black.front().picture, black.back().picture});
+  });
+}
+
 TEST_F(RenderedFilm, WhoseDepthsContradictEachOtherIsRefused) {
   const TemporaryFolder folder;
   std::vector<RenderedView> views = views_of(0);

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "wheatstone/app/detail_map.h"
 #include "wheatstone/app/half_size_internal.h"
 #include "wheatstone/error.h"
 #include "wheatstone/matching/match_near.h"
@@ -294,6 +295,35 @@ void find_views(const FrameTask& task, bool scene_begins, RotoscopeState& state,
   frame.views.insert(frame.views.end(), outer.begin(), outer.end());
 }
 
+/// How finely the central view is painted: as the frame's own detail map says, or the one before, moved along the flow.
+Image<std::uint8_t> detail_of(const FrameTask& task, const FrameAtWork& frame, bool carries,
+                              const RotoscopeState& state) {
+  const Image<float>& disparity = frame.centre.disparity;
+  const int width = disparity.width(), height = disparity.height();
+  if (!task.options.detail_map.empty()) {
+    const Image<std::uint8_t> map = read_detail_map(task.options.detail_map);
+    Image<std::uint8_t> detail(width, height);
+    for (int y = 0; y < height; ++y)
+      for (int x = 0; x < width; ++x) {
+        const float left = static_cast<float>(x) + 0.5f + (central_view - left_eye) * disparity(x, y);
+        const int column = std::clamp(static_cast<int>(left), 0, width - 1);
+        detail(x, y) = map((2 * column + 1) * map.width() / (2 * width), (2 * y + 1) * map.height() / (2 * height));
+      }
+    return detail;
+  }
+  if (!carries || state.detail.empty()) return {};
+  const Flow& to_before = state.flow_before.backward;
+  Image<std::uint8_t> detail(width, height, even_detail);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const float column = std::round(static_cast<float>(x) + to_before.x(x, y)),
+                  row = std::round(static_cast<float>(y) + to_before.y(x, y));
+      if (column >= 0 && row >= 0 && column < static_cast<float>(width) && row < static_cast<float>(height))
+        detail(x, y) = state.detail(static_cast<int>(column), static_cast<int>(row));
+    }
+  return detail;
+}
+
 /// Shows the frame on the display, to other eyes than the film's own, or to these, over their pictures.
 FrameShowing showing_of(const FrameTask& task, const TwoEyes& eyes, const SceneDepth& depth) {
   const RotoscopeOptions& options = task.options;
@@ -415,6 +445,8 @@ PlannedFilmFrame plan_film_frame(const StereoPair& photographed, const Rotoscope
     const Stopwatch watch(result.times.flow_s);
     state.flow_before = find_flow(frame, task, state);
   }
+  state.detail = detail_of(task, frame, carries, state);
+  if (!state.detail.empty()) frame.views.front().detail = state.detail;
   report(progress, "painting", 0);
   Image<Rgb16> rectified_deep;
   if (!left_deep.empty() && state.rectification.how)

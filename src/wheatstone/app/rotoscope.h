@@ -59,6 +59,10 @@ struct RotoscopeOptions {
   /// The frames of the scene are drawn for eyes that move: all of them as for other eyes than the film's own, where
   /// nothing lies behind the paint, so that no frame looks otherwise.
   bool eyes_move = false;
+  /// How finely each place of this frame is painted, as the detail map of a photograph: a picture that is stretched
+  /// over the left eye's, and moves with the film until there is another one, or a scene begins. Empty: there is no
+  /// other.
+  std::filesystem::path detail_map;
   std::optional<bool> scene_begins;  ///< with the frame; none: where a cut is found
   bool anew = false;                 ///< every frame as if a scene began: the naive method, to be measured against
 };
@@ -98,7 +102,8 @@ struct RotoscopeState {
   /// so.
   Image<Rgb8> central_before;
   Image<float> left_disparity_before, central_disparity_before;
-  FlowPair flow_before;  ///< the last flow of the scene; empty where there is none yet
+  FlowPair flow_before;        ///< the last flow of the scene; empty where there is none yet
+  Image<std::uint8_t> detail;  ///< View::detail of the central view; empty where there is none
   std::optional<DisparityRange> range;
   SceneRectification rectification;
   SceneDepth depth;                              ///< where the frames are drawn for a display or a depth budget

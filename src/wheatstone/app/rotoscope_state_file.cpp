@@ -35,6 +35,7 @@ class Check {
     of_frame(state.central_disparity_before);
     flow(state.flow_before.forward);
     flow(state.flow_before.backward);
+    of_frame(state.detail);
     for (const Layer& one : state.layers_before) layer(one);
     memory(state.memory);
     memory(state.outside_memory);

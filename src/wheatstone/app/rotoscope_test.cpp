@@ -15,6 +15,8 @@
 #include "wheatstone/app/rotoscope_film.h"
 #include "wheatstone/app/rotoscope_state_file_internal.h"
 #include "wheatstone/files/struct_fields.h"
+#include "wheatstone/pictures/write_image.h"
+#include "wheatstone/stereo/geometry_from_disparity.h"
 #include "wheatstone/stereo/packed_pair.h"
 #include "wheatstone/synthetic/synthetic_film.h"
 
@@ -230,6 +232,49 @@ TEST(Rotoscope, OneEyeGivesOneEye) {
     EXPECT_EQ(painted.scene_begins, frame == 0);
     EXPECT_GT(psnr_db(picture, moving_picture(96, 64, frame)), psnr_db(picture, moving_picture(96, 64, frame + 20)));
   }
+}
+
+TEST(Rotoscope, ADetailMapMovesWithTheFilm) {
+  constexpr int width = 240, height = 120, step_px = 6, frames = 4;
+  const TemporaryFolder folder;
+  Image<std::uint8_t> map(width, height, 40);
+  for (int y = 0; y < height; ++y)
+    for (int x = 60; x < 120; ++x) map(x, y) = 255;
+  write_image(folder / "detail.png", map);
+  const auto fine_strokes = [&](bool with_map) {
+    RotoscopeOptions options;
+    options.style = style_by_name("oil");
+    RotoscopeState state;
+    std::vector<int> fine;  // that begin where the bright part of the map is now
+    for (int i = 0; i < frames; ++i) {
+      options.detail_map = with_map && i == 0 ? folder / "detail.png" : fs::path();
+      // A picture that moves to the right; both eyes see the same.
+      const Image<Rgb8> picture = moving_picture(width, height, 0, -step_px * i);
+      const Image<float> flat(width, height), ahead(width, height, step_px), back(width, height, -step_px);
+      KnownFrame known{geometry_from_both(flat, flat), {}};
+      if (i > 0) known.flow = FlowPair{{ahead, flat}, {back, flat}};
+      const RotoscopedFrame frame = rotoscope_frame({picture, picture}, options, state, &known);
+      EXPECT_EQ(state.detail.empty(), !with_map);
+      const int from = 60 + step_px * i, to = 120 + step_px * i;
+      if (with_map) {
+        EXPECT_EQ(state.detail(from + 2, 60), 255) << i;
+        EXPECT_EQ(state.detail(to - 3, 60), 255) << i;
+        EXPECT_EQ(state.detail(from - 3, 60), 40) << i;
+        EXPECT_EQ(state.detail(to + 2, 60), 40) << i;
+        EXPECT_EQ(i == 0 ? even_detail : state.detail(0, 60), even_detail) << "nothing is known of what came in";
+      }
+      int count = 0;
+      for (const Layer& layer : layers_of(frame.painting))
+        for (const Stroke& stroke : layer.strokes) {
+          const float x = layer.points_of(stroke).front().x;
+          count += x >= static_cast<float>(from) && x < static_cast<float>(to) ? 1 : 0;
+        }
+      fine.push_back(count);
+    }
+    return fine;
+  };
+  const std::vector<int> with_map = fine_strokes(true), without = fine_strokes(false);
+  for (std::size_t i = 0; i < frames; ++i) EXPECT_GT(with_map[i], 1.2 * without[i]) << i;
 }
 
 TEST(Rotoscope, SizesThatChangeAreRefused) {

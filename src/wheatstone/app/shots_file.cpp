@@ -11,8 +11,10 @@
 #include <sstream>
 #include <utility>
 
+#include "wheatstone/app/detail_map.h"
 #include "wheatstone/error.h"
 #include "wheatstone/files/whole_file.h"
+#include "wheatstone/painting/paint.h"
 #include "wheatstone/painting/style_parameters.h"
 #include "wheatstone/video/film_time.h"
 
@@ -21,8 +23,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 7> keys_of_shots{"begin",        "last",          "dissolve", "style",
-                                                        "depth-budget", "zero-parallax", "key"};
+constexpr std::string_view detail_key = "detail-map";
+constexpr std::array<std::string_view, 8> keys_of_shots{"begin",        "last",          "dissolve", "style",
+                                                        "depth-budget", "zero-parallax", "key",      detail_key};
 
 /// The rows of an array of tables, each with its name, as "shots.toml: shot 2".
 template <class Read>
@@ -48,6 +51,7 @@ class ShotTable {
         .begin = written_frame("begin", "its first frame"),
         .painted = {.style = own.style, .depth_budget = own.depth_budget, .zero_parallax_px = own.zero_parallax_px},
         .where = at(table_)};
+    shot.detail_map = detail_map(own.style);
     if (const toml::node* last = table_.get("last")) shot.last = frame("last", *last);
     if (const toml::node* dissolve = table_.get("dissolve"))
       shot.dissolve = frame_or_time("dissolve", *dissolve, "a number of frames, or a time, as \"0.5\"");
@@ -66,8 +70,9 @@ class ShotTable {
   WrittenKey read_key(const RotoscopeOptions& of_shot, const toml::table& shot,
                       std::span<const UnusedKey> unused) const {
     WrittenKey key{.at = written_frame("at", "a frame of the shot"), .values = {}, .where = at(table_)};
+    key.detail_map = detail_map(of_shot.style);
     for (const auto& [name, node] : table_) {
-      if (name.str() == "at") continue;
+      if (name.str() == "at" || name.str() == detail_key) continue;
       const MovableParameter* const parameter = movable(name.str(), node, unused);
       if (shot.contains(name.str()))
         throw Error(
@@ -75,13 +80,30 @@ class ShotTable {
             fmt::format("{}: '{}' is also set by the shot; leave it out there, or in its keys", at(node), name.str()));
       key.values.push_back({parameter->name, 0});
     }
-    if (key.values.empty())
-      throw Error(ErrorKind::bad_input, fmt::format("{}: gives no number, expected one of {}", at(table_), movables()));
+    if (key.values.empty() && key.detail_map.empty())
+      throw Error(ErrorKind::bad_input,
+                  fmt::format("{}: gives no number, expected {} or one of {}", at(table_), detail_key, movables()));
     const RotoscopeOptions then = painted(of_shot);
     for (WrittenKey::Value& value : key.values) value.value = find_movable_parameter(value.parameter)->get(then);
     if (const toml::node* budget = table_.get("depth-budget"); budget != nullptr && !then.depth_budget)
       refuse("depth-budget", *budget, "a share of the width, which moves; the whole depth is \"100%\"");
     return key;
+  }
+
+  /// Empty where the table has none.
+  fs::path detail_map(const Style& style) const {
+    const toml::node* const node = table_.get(detail_key);
+    if (node == nullptr) return {};
+    const auto* name = node->as_string();
+    if (name == nullptr) refuse(detail_key, *node, "the name of a picture");
+    const fs::path file = folder_ / name->get();
+    try {
+      check_reads_detail(style);
+      read_detail_map(file);
+    } catch (const Error& error) {
+      throw Error(ErrorKind::bad_input, fmt::format("{}: {}", at(*node), error.what()));
+    }
+    return file;
   }
 
   /// `all` with what the table sets.

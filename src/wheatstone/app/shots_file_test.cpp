@@ -1,5 +1,6 @@
 #include "wheatstone/app/shots_file.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -8,6 +9,7 @@
 #include "scenes/moving_picture.h"
 #include "throws_error.h"
 #include "wheatstone/app/place_shots.h"
+#include "wheatstone/pictures/write_image.h"
 
 namespace wheatstone::shots_file_test {
 
@@ -89,6 +91,26 @@ begin = 91
   EXPECT_EQ(second.where, "s.toml: shot 1, key 2, line 8");
 }
 
+TEST(ShotsFile, HasDetailMapsAsSeenFromItsFolder) {
+  const TemporaryFolder folder;
+  write_image(folder / "d.png", Image<std::uint8_t>(8, 4, 200));
+  const std::string shots = "[[shot]]\nbegin = 1\nstyle = \"oil\"\ndetail-map = \"d.png\"\n";
+  put_bytes(folder / "s.toml", shots + "[[shot.key]]\nat = 5\ndetail-map = \"d.png\"\n");
+  const std::vector<WrittenShot> read = read_shots(folder / "s.toml", {});
+  EXPECT_EQ(read.at(0).detail_map, folder / "d.png");
+  EXPECT_EQ(read.at(0).keys.at(0).detail_map, folder / "d.png");
+  EXPECT_TRUE(read.at(0).keys.at(0).values.empty());
+  const auto refused = [&](const std::string& toml, const std::string& why) {
+    put_bytes(folder / "w.toml", toml);
+    expect_error(ErrorKind::bad_input, why, [&] { read_shots(folder / "w.toml", {}); });
+  };
+  refused("[[shot]]\nbegin = 1\nstyle = \"oil\"\ndetail-map = \"none.png\"\n", "w.toml: shot 1, line 4: ");
+  refused("[[shot]]\nbegin = 1\nstyle = \"oil\"\ndetail-map = 5\n", "'detail-map' is not the name of a picture");
+  refused("[[shot]]\nbegin = 1\nstyle = \"mosaic\"\ndetail-map = \"d.png\"\n",
+          "shot 1, line 4: style mosaic: takes no detail map");
+  refused(shots + "[[shot.key]]\nat = 5\n", "gives no number, expected detail-map or one of");
+}
+
 TEST(ShotsFile, ThatWasListedChangesNothing) {
   const std::vector<FoundShot> found{{0, 5, 0, 0.2, "a_001.jpg"}, {5, 4, 0.2, 0.16, "a_002.jpg"}};
   RotoscopeOptions all;
@@ -144,7 +166,9 @@ TEST(ShotsFile, ThatIsWrongIsRefusedWithItsPlace) {
       {"[[shot]]\nbegin = 1\nkey = 2\n", "s.toml: shot 1, line 3: 'key' is not [[shot.key]] tables"},
       {"[[shot]]\nbegin = 1\nkey = [2]\n", "s.toml: shot 1, key 1: is no table, expected [[shot.key]]"},
       {"[[shot]]\nbegin = 1\n[[shot.key]]\ndry = 1\n", "s.toml: shot 1, key 1, line 3: has no 'at', expected a frame"},
-      {first, "s.toml: shot 1, key 1, line 3: gives no number, expected one of depth-budget, zero-parallax, opacity"},
+      {first,
+       "s.toml: shot 1, key 1, line 3: gives no number, expected detail-map or one of depth-budget, zero-parallax, "
+       "opacity"},
       {first + "radii = [4]\n", "s.toml: shot 1, key 1, line 5: 'radii' does not move, expected at and one of depth-"},
       {first + "style = \"oil\"\n", "s.toml: shot 1, key 1, line 5: 'style' does not move"},
       {first + "strokez = 2\n", "s.toml: shot 1, key 1, line 5: unknown key 'strokez', expected at and one of depth-"},
@@ -214,6 +238,23 @@ TEST_F(PlacedShots, HaveTheirKeysAtTheTimesOfFrames) {
     ASSERT_EQ(moving[1].keys.size(), 1u);
     EXPECT_EQ(moving[1].keys[0].value, 2);
   }
+}
+
+TEST_F(PlacedShots, HaveTheirDetailMapsAtFramesThatAreRead) {
+  const TemporaryFolder folder;
+  write_image(folder / "d.png", Image<std::uint8_t>(8, 4, 200));
+  const std::string map = fmt::format("detail-map = \"{}\"\n", (folder / "d.png").string());
+  const std::string toml = "[[shot]]\nbegin = 1\n[[shot]]\nbegin = 6\nstyle = \"oil\"\n" + map +
+                           "[[shot.key]]\nat = 9\n" + map + "[[shot.key]]\nat = 17\n" + map;
+  const auto frames = [&](const FilmReaderOptions& reading) {
+    std::vector<std::int64_t> found;
+    const std::vector<FilmShot> shots = placed(toml, reading);
+    for (const DetailKey& key : shots.back().details) found.push_back(key.frame);
+    return found;
+  };
+  EXPECT_THAT(frames({}), ElementsAre(5, 8, 16));
+  EXPECT_THAT(frames({.from_s = 0.28}), ElementsAre(1, 9)) << "from frame 8 on; what was before has moved";
+  EXPECT_THAT(frames({.every = 4}), ElementsAre(2, 2, 4));
 }
 
 TEST_F(PlacedShots, DissolveForFramesOrSeconds) {

@@ -26,6 +26,8 @@ constexpr double most_rest = 0.45;            ///< of a frame that is no mixture
 /// different places; all where one scene moves.
 constexpr double most_detail = 0.68;
 
+constexpr std::int64_t least_alone = 4;  ///< frames before and after a dissolve
+
 double mean(Values values) {
   return std::accumulate(values.begin(), values.end(), 0.) / static_cast<double>(values.size());
 }
@@ -93,6 +95,10 @@ class DissolvesOfScene {
           }))
         dissolves.push_back(candidate);
     for (FoundDissolve& dissolve : dissolves) dissolve = with_exact_ends(dissolve);
+    // Another scene would have no frames of its own.
+    std::erase_if(dissolves, [&](const FoundDissolve& dissolve) {
+      return dissolve.last_before < least_alone - 1 || dissolve.first_after > count() - least_alone;
+    });
     std::ranges::sort(dissolves, {}, &FoundDissolve::first_after);
     return dissolves;
   }

@@ -119,7 +119,7 @@ void FilmFile::check(int error) const {
   if (error < 0) fail_to_write_film(path_, error);
 }
 
-void FilmFile::begin(const AVCodecParameters& coded, Rational time_base) {
+void FilmFile::begin(const AVCodecParameters& coded, Rational time_base, std::optional<Rational> rate) {
   stream_ = avformat_new_stream(output_, nullptr);
   if (stream_ == nullptr || avcodec_parameters_copy(stream_->codecpar, &coded) < 0) throw std::bad_alloc();
   const Container container = container_of(path_);
@@ -127,6 +127,7 @@ void FilmFile::begin(const AVCodecParameters& coded, Rational time_base) {
   stream_->sample_aspect_ratio = coded.sample_aspect_ratio;
   time_base_ = as_av(time_base);
   stream_->time_base = time_base_;
+  if (rate) stream_->avg_frame_rate = as_av(*rate);
   shift_ = std::llround(options_.start_s / av_q2d(time_base_));
   say_layout(*stream_);
   if (!options_.comment.empty()) av_dict_set(&output_->metadata, "comment", options_.comment.c_str(), 0);

@@ -26,7 +26,7 @@ class FilmFile {
   FilmFile& operator=(const FilmFile&) = delete;
 
   /// Writes the head of the file: what the coded pictures are, in which ticks their times count, and the side streams.
-  void begin(const AVCodecParameters& coded, Rational time_base);
+  void begin(const AVCodecParameters& coded, Rational time_base, std::optional<Rational> rate = {});
   /// Adds a coded picture, in the order of decoding; takes its data.
   void add(AVPacket& packet);
   /// Adds the rest of the side streams and the file's tail, and gives it its name.

@@ -131,6 +131,23 @@ TEST(FilmWriter, OpenExrOfTwoEyesKeepsMoreThanEightBits) {
   EXPECT_LE(largest_difference(read[0].picture, ramp.picture), 1);
 }
 
+TEST(FilmWriter, EveryCodecKeepsTheShapeOfPixelsAndTheRate) {
+  const TemporaryFolder folder;
+  for (const auto& [codec, name] : {std::pair{"prores-hq", "a.mov"},
+                                    {"prores-hq", "a.mkv"},
+                                    {"ffv1", "a.mkv"},
+                                    {"h264", "a.mp4"},
+                                    {"h264", "a.mkv"}}) {
+    SegmentedFilm writer(folder / name, {.codec = codec, .frame_rate = {24, 1}, .pixel_aspect = {16, 15}}, {});
+    for (int i = 0; i < 4; ++i) writer.write({moving_picture(64, 48, i), i, {1, 24}, 1});
+    writer.finish();
+    const FilmFacts facts = open_film(folder / name).facts();
+    EXPECT_EQ(facts.pixel_aspect, (Rational{16, 15})) << codec << " " << name;
+    EXPECT_NEAR(facts.frame_rate.value(), 24, 1e-3) << codec << " " << name;
+    fs::remove(folder / name);
+  }
+}
+
 TEST(FilmWriter, H264AndHevcAreClose) {
   const TemporaryFolder folder;
   for (const char* codec : {"h264", "hevc"}) {

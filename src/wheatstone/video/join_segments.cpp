@@ -60,6 +60,16 @@ OwnedParameters copy_of(const AVCodecParameters& coded) {
   return copy;
 }
 
+/// Frames a second, if all are shown equally long.
+std::optional<Rational> even_rate(const SegmentTimes& times) {
+  const std::int64_t duration = times.durations.front();
+  if (duration <= 0 || std::ranges::any_of(times.durations, [&](std::int64_t other) { return other != duration; }))
+    return {};
+  for (std::size_t i = 1; i < times.pts.size(); ++i)
+    if (times.pts[i] - times.pts[i - 1] != duration) return {};
+  return from_av(av_inv_q(av_mul_q(as_av(times.time_base), av_make_q(static_cast<int>(duration), 1))));
+}
+
 }  // namespace
 
 void join_segments(const Segments& segments, const fs::path& film, const FilmWriterOptions& options,
@@ -77,9 +87,11 @@ void join_segments(const Segments& segments, const fs::path& film, const FilmWri
         read_segment(folder, number, [&](const AVCodecParameters& parameters, AVPacket& packet, std::size_t shown) {
           if (!coded) {
             coded = copy_of(parameters);
+            // Not all codecs tell it.
             const Rational of_layout = pixel_aspect_of(options.layout);
-            if (of_layout != Rational{1, 1}) coded->sample_aspect_ratio = as_av(of_layout);
-            joined.begin(*coded, clock.all.time_base);
+            const Rational aspect = of_layout == Rational{1, 1} ? options.pixel_aspect : of_layout;
+            if (aspect != Rational{1, 1}) coded->sample_aspect_ratio = as_av(aspect);
+            joined.begin(*coded, clock.all.time_base, even_rate(clock.all));
           }
           if (!same_coding(parameters, *coded) || shown >= size || place >= clock.all.size()) {
             refuse_film(file, "does not fit the segments before; delete the folder to start again");
