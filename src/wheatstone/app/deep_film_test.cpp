@@ -8,6 +8,7 @@
 
 #include "temporary_folder.h"
 #include "wheatstone/app/film_plan.h"
+#include "wheatstone/app/pack_film.h"
 #include "wheatstone/app/rotoscope_film.h"
 #include "wheatstone/stereo/packed_pair.h"
 #include "wheatstone/video/segmented_film.h"
@@ -87,6 +88,27 @@ TEST(DeepFilm, PaintedRampHasNoStepThatEightBitsWouldMake) {
   flat.frames.deep = flat.reading.deep = false;
   paint(folder / "ramp.mkv", folder / "flat.mkv", flat);
   EXPECT_LE(codes_in(folder / "flat.mkv").size(), 5u);
+}
+
+TEST(DeepFilm, IsPackedWithItsBitsIfBothEyesHaveThem) {
+  const TemporaryFolder folder;
+  make_ramp(folder / "ramp.mkv");
+  const FilmWriterOptions deep{.codec = "ffv1", .pixel_format = "gbrp16le", .layout = StereoLayout::top_bottom};
+  StereoFilmReader ramp = open_stereo_film(folder / "ramp.mkv", {}, {.deep = true});
+  pack_film(ramp, folder / "packed.mkv", {.writing = deep, .anaglyph = {}, .right_film = {}});
+  EXPECT_EQ(codes_in(folder / "packed.mkv").size(), std::size_t{bars});
+  // The right eye in 8 bits.
+  for (const bool is_deep : {true, false}) {
+    FilmWriterOptions of_eye{.codec = "ffv1", .pixel_format = is_deep ? "gbrp16le" : "bgr0"};
+    StereoFilmReader source = open_stereo_film(folder / "ramp.mkv", {}, {.deep = true});
+    SegmentedFilm eye(folder / (is_deep ? "l.mkv" : "r.mkv"), of_eye, {});
+    for (StereoFrame frame; source.read(frame);)
+      eye.write({frame.left, frame.pts, frame.time_base, frame.duration, is_deep ? frame.left_deep : Image<Rgb16>()});
+    eye.finish();
+  }
+  StereoFilmReader mixed = open_eye_films(folder / "l.mkv", folder / "r.mkv", {.deep = true});
+  pack_film(mixed, folder / "mixed.mkv", {.writing = deep, .anaglyph = {}, .right_film = {}});
+  EXPECT_LE(codes_in(folder / "mixed.mkv").size(), 5u);
 }
 
 TEST(DeepFilm, IsTheSameWhenItIsPlannedFirst) {

@@ -110,6 +110,16 @@ TEST_F(PreviewedFilm, TellsAboutHowLongItTakesAndHowLargeItBecomes) {
   EXPECT_LT(expected.seconds, made.seconds * 4);
 }
 
+TEST_F(PreviewedFilm, OfNumberedPicturesTellsTheirSize) {
+  options_.reading.to_s = 0.06;
+  options_.shots.resize(1);
+  for (const char* pattern : {"o_%04d.png", "o_%04d.exr"}) {
+    const fs::path sheet = folder_ / (std::string(pattern).substr(7) + ".png");
+    EXPECT_GT(preview_film(film_, folder_ / pattern, sheet, options_).bytes, 1000) << pattern;
+    EXPECT_TRUE(fs::exists(sheet));
+  }
+}
+
 TEST_F(PreviewedFilm, OfMasksDepthAndDisplaysIsMade) {
   Image<Rgb8> mask(192, 96);
   for (int x = 0; x < 60; ++x) mask(x, 50) = {255, 255, 255};
