@@ -170,6 +170,16 @@ void take_depth(const RotoscopeArguments& arguments, const FilmFiles& film, cons
   options.made_from.emplace_back(depth.model.empty() ? depth.file : depth.model);
 }
 
+void take_matching(RotoscopeArguments& arguments) {
+  RotoscopeOptions& frames = arguments.options.frames;
+  frames.matching = match_options_from(arguments.matching);
+  // Whoever chooses a method of matching has each frame matched by it.
+  frames.match_near_last = arguments.matching.quality != "best" &&
+                           std::ranges::none_of(std::array{"--matcher", "--block", "--no-left-right-check", "--refine"},
+                                                [&](const char* option) { return arguments.given(option); });
+  frames.at_half_size = arguments.matching.quality == "fast";
+}
+
 /// A network for the optical flow.
 void take_flow(RotoscopeArguments& arguments) {
   RotoscopeOptions& frames = arguments.options.frames;
@@ -286,6 +296,15 @@ void refuse_for_one_eye(const RotoscopeArguments& arguments, const FilmFiles& fi
                  "on a film of one eye");
 }
 
+/// The shots of a file, whose detail maps are sources, too.
+void take_shots(const RotoscopeArguments& arguments, const FilmFiles& film, bool has_one_eye, const Session& session,
+                RotoscopeFilmOptions& options) {
+  if (arguments.shots.file.empty()) return;
+  options.shots = shots_from(arguments.shots, film, options, {writes_marks(arguments), has_one_eye}, session);
+  for (const FilmShot& shot : options.shots)
+    for (const DetailKey& detail : shot.details) options.made_from.push_back(detail.map);
+}
+
 /// What the processes of mpirun share.
 void take_ranks(const FilmFiles& film, RotoscopeFilmOptions& options, const Session& session) {
   if (session.ranks.alone()) return;
@@ -312,12 +331,7 @@ Report run_rotoscope(const RotoscopeArguments& given, const Session& session) {
   RotoscopeArguments arguments = given;
   RotoscopeOptions& frames = arguments.options.frames;
   frames.style = style_from(arguments.style, session.seed);
-  frames.matching = match_options_from(arguments.matching);
-  // Whoever chooses a method of matching has each frame matched by it.
-  frames.match_near_last = arguments.matching.quality != "best" &&
-                           std::ranges::none_of(std::array{"--matcher", "--block", "--no-left-right-check", "--refine"},
-                                                [&](const char* option) { return arguments.given(option); });
-  frames.at_half_size = arguments.matching.quality == "fast";
+  take_matching(arguments);
   take_flow(arguments);
   take_display(arguments);
   if (arguments.options.frames.display || writes_marks(arguments)) arguments.options.frames.depth_budget.reset();
@@ -345,10 +359,7 @@ Report run_rotoscope(const RotoscopeArguments& given, const Session& session) {
   take_passes(arguments, film, session, options);
   if (has_one_eye) refuse_for_one_eye(arguments, film);
   take_mask(arguments.mask, film, source, session, options);
-  if (!arguments.shots.file.empty())
-    options.shots = shots_from(arguments.shots, film, options, {writes_marks(arguments), has_one_eye}, session);
-  for (const FilmShot& shot : options.shots)
-    for (const DetailKey& detail : shot.details) options.made_from.push_back(detail.map);
+  take_shots(arguments, film, has_one_eye, session, options);
   if (session.verbose && film.right.empty())
     remark(session, fmt::format("layout: {} ({})", layout_name(source.layout()), source.layout_how()));
   options.made_by += fmt::format(" from {}", layout_name(source.layout()));

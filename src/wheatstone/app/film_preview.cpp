@@ -145,7 +145,7 @@ class PreviewWork {
       const KnownFrame known = options_.known(number, eyes);
       frame.left = std::move(eyes.left);
       frame.right = std::move(eyes.right);
-      whole_.known = [known](std::int64_t, const StereoPair&) { return known; };
+      whole_.known = [known = known](std::int64_t, const StereoPair&) { return known; };
       // Geometry and flow are of whole frames; depth fits frames of any size.
       small_.known = known.depth ? whole_.known : KnownFrames();
     }

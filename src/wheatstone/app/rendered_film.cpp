@@ -109,8 +109,8 @@ class FilmWithPasses {
   DepthFit fit_of(std::int64_t frame, const StereoPair& eyes, const Image<float>& left_depth) {
     std::optional<DepthFit> fit = fit_depth(eyes, left_depth);
     for (std::int64_t earlier = frame - 1; earlier >= 0 && !fit; --earlier) {
-      if (fit_before_ && fit_before_->first == earlier) {
-        fit = fit_before_->second;
+      if (earlier == fitted_frame_) {
+        fit = fit_there_;
         break;
       }
       std::vector<Image<Rgb8>> views = read_multiview_exr(file_of(earlier));
@@ -121,7 +121,8 @@ class FilmWithPasses {
       refuse(file_of(frame),
              "its depth does not tell where its eyes see things, expected parallel cameras (off-axis), "
              "and depth along their axis; --passes none ignores it");
-    if (fit) fit_before_ = {frame, *fit};
+    fitted_frame_ = frame;
+    fit_there_ = fit;
     return fit.value_or(DepthFit());
   }
 
@@ -141,7 +142,8 @@ class FilmWithPasses {
   int every_;
   bool has_motion_;
   LeftView before_;
-  std::optional<std::pair<std::int64_t, DepthFit>> fit_before_;
+  std::int64_t fitted_frame_ = -1;
+  std::optional<DepthFit> fit_there_;  ///< none where no frame up to that one tells it
 };
 
 }  // namespace

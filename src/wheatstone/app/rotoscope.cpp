@@ -381,6 +381,16 @@ ShownOutside outside_of(const FrameTask& task, FrameMask mask, const FrameAtWork
   return outside;
 }
 
+/// Plans what is shown outside the mask.
+void plan_outside(const FilmFrame& to_paint, const FrameTask& task, const FrameMask& mask, const FrameAtWork& frame,
+                  RotoscopeState& state, PlannedFilmFrame& result) {
+  const Stopwatch watch(result.painting_times.planning_s);
+  ShownOutside& outside =
+      result.showing.outside.emplace(outside_of(task, rectified_mask(mask, state.rectification), frame));
+  if (const std::optional<Style>& style = task.options.outside)
+    outside.painting = plan_marks(to_paint, task, result.eyes, *style, state.outside_memory).painting;
+}
+
 /// Compares the frame with the one before and adds it to the film's sums.
 void accumulate_statistics(const RotoscopeOptions& options, RotoscopeState& state, PlannedFilmFrame& result) {
   const std::span<const Layer> layers = layers_of(result.painting);
@@ -463,13 +473,7 @@ PlannedFilmFrame plan_film_frame(const StereoPair& photographed, const Rotoscope
     result.drawn = std::move(planned.drawn);
   }
   result.showing = showing_of(task, result.eyes, state.depth);
-  if (mask != nullptr) {
-    const Stopwatch watch(result.painting_times.planning_s);
-    ShownOutside& outside =
-        result.showing.outside.emplace(outside_of(task, rectified_mask(*mask, state.rectification), frame));
-    if (options.outside)
-      outside.painting = plan_marks(to_paint, task, result.eyes, *options.outside, state.outside_memory).painting;
-  }
+  if (mask != nullptr) plan_outside(to_paint, task, *mask, frame, state, result);
   accumulate_statistics(options, state, result);
 
   remember(photographed.left, std::move(frame), state);

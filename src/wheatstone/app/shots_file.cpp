@@ -96,7 +96,7 @@ class ShotTable {
     if (node == nullptr) return {};
     const auto* name = node->as_string();
     if (name == nullptr) refuse(detail_key, *node, "the name of a picture");
-    const fs::path file = folder_ / name->get();
+    fs::path file = folder_ / name->get();
     try {
       check_reads_detail(style);
       read_detail_map(file);

@@ -100,7 +100,7 @@ bool finish(const FrontToBackAccumulator& accumulator, int row, const RowToFinis
     std::copy_n(bare.begin(), count, to.bare.begin() + first);
     for (int i = 0; i < count && !to.deep.empty(); ++i) {
       const auto place = static_cast<std::size_t>(i);
-      to.deep[static_cast<std::size_t>(first + i)] = {deep[0][place], deep[1][place], deep[2][place]};
+      to.deep[static_cast<std::size_t>(first) + place] = {deep[0][place], deep[1][place], deep[2][place]};
     }
     if (count == block_px) {
       interleave(colours, to.picture.data() + first);

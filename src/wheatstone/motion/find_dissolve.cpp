@@ -117,7 +117,7 @@ class DissolvesOfScene {
   }
 
   bool is_dissolve(const FoundDissolve& candidate) const {
-    const auto [a, b] = candidate;
+    const std::int64_t a = candidate.last_before, b = candidate.first_after;
     const Values first = at(a), second = at(b);
     const double difference = mean_square_difference(first, second);
     if (difference < least_difference * least_difference) return false;

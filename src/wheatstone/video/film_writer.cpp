@@ -11,6 +11,7 @@
 #include "wheatstone/video/film_file_internal.h"
 #include "wheatstone/video/frame_steps_internal.h"
 #include "wheatstone/video/sequence_file_internal.h"
+#include "wheatstone/video/video_codings_internal.h"
 #include "wheatstone/video/video_encoder_internal.h"
 
 namespace wheatstone {

@@ -4,8 +4,8 @@
 
 #include <filesystem>
 
-#include "wheatstone/image/image.h"
 #include "wheatstone/stereo/stereo_layout.h"
+#include "wheatstone/video/frame.h"
 #include "wheatstone/video/frame_sequence.h"
 
 namespace wheatstone {

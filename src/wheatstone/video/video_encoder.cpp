@@ -173,17 +173,17 @@ OwnedFrame VideoEncoder::to_code(const Frame& frame) {
   return frame_from_rgb_->convert(frame.picture);
 }
 
-void VideoEncoder::send(const Frame& given, const PacketSink& sink) {
-  const OwnedFrame frame = to_code(given);
-  frame->pts = given.pts;
-  frame->pkt_duration = given.duration;
-  frame->colorspace = codec_->colorspace;
-  frame->color_range = codec_->color_range;
-  frame->color_primaries = codec_->color_primaries;
-  frame->color_trc = codec_->color_trc;
-  frame->sample_aspect_ratio = codec_->sample_aspect_ratio;
-  durations_[given.pts] = given.duration;
-  const int error = avcodec_send_frame(codec_.get(), frame.get());
+void VideoEncoder::send(const Frame& frame, const PacketSink& sink) {
+  const OwnedFrame coded = to_code(frame);
+  coded->pts = frame.pts;
+  coded->pkt_duration = frame.duration;
+  coded->colorspace = codec_->colorspace;
+  coded->color_range = codec_->color_range;
+  coded->color_primaries = codec_->color_primaries;
+  coded->color_trc = codec_->color_trc;
+  coded->sample_aspect_ratio = codec_->sample_aspect_ratio;
+  durations_[frame.pts] = frame.duration;
+  const int error = avcodec_send_frame(codec_.get(), coded.get());
   if (error < 0) throw Error(ErrorKind::cannot_read_write, fmt::format("encoder: {}", libav_reason(error)));
   receive(sink);
 }
