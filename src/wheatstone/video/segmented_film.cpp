@@ -106,9 +106,11 @@ std::int64_t frames_of_segment(const fs::path& folder, std::int64_t number) {
 }
 
 std::int64_t frames_kept(const fs::path& film) {
-  std::int64_t frames = 0;
-  for (std::int64_t number = 0; const std::int64_t more = frames_of_segment(work_folder_of(film), number); ++number)
+  std::int64_t frames = 0, number = 0;
+  while (const std::int64_t more = frames_of_segment(work_folder_of(film), number)) {
     frames += more;
+    ++number;
+  }
   return frames;
 }
 
