@@ -10,6 +10,7 @@
 
 #include "cli/run_program.h"
 #include "scenes/checkerboard_picture.h"
+#include "scenes/rendered_frames.h"
 #include "scenes/stereograph_card.h"
 #include "scenes/test_photographs.h"
 #include "wheatstone/files/whole_file.h"
@@ -36,6 +37,23 @@ StereoPair detailed_photographs() { return still_for_test(192, 144); }
 void make_with_program(const Words& words) {
   const ProgramResult result = run_program(words);
   if (result.exit_code != 0) throw std::runtime_error(fmt::format("{} {}: {}", words[0], words[1], result.errors));
+}
+
+/// Three frames of two views with their depth, as a renderer gives them.
+void make_rendered(const fs::path& folder) {
+  fs::create_directory(folder);
+  const SyntheticFilmOptions options{
+      .still = {.width = 144, .height = 108, .samples_a_side = 1}, .frames = 3, .cut = 0};
+  for (int i = 0; i < options.frames; ++i) {
+    const SyntheticFilmFrame frame = make_synthetic_film_frame(options, i);
+    const auto depth_of = [](Image<float> disparity) {
+      for (float& px : disparity.pixels()) px = 50 / std::max(px + 1, 0.1f);
+      return disparity;
+    };
+    write_rendered_frame(folder / fmt::format("render_{:04}.exr", i + 1),
+                         {{frame.pictures.left, depth_of(frame.geometry.left_disparity)},
+                          {frame.pictures.right, depth_of(frame.geometry.right_disparity)}});
+  }
 }
 
 /// Pairs of a board of 11×7 inner corners, 30 mm apart, by a rig that could have taken `photographs`.
@@ -174,6 +192,7 @@ const std::map<std::string, Maker>& makers() {
       {"stop.txt", [](const fs::path& path) { put_bytes(path, "wait 0.4\npause\nmode right\nwait 1\npause\nwait\n"); }},
       {"rig", make_rig},
       {"film.mp4", make_film},
+      {"rendered", make_rendered},
       {"painted.mp4", make_film},
       {"walk.mp4", [](const fs::path& path) { make_walk(path, false); }},
       {"depth.mp4", [](const fs::path& path) { make_walk(path, true); }},
