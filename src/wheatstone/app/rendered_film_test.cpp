@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "scenes/rendered_frames.h"
 #include "throws_error.h"
@@ -19,9 +20,13 @@ namespace fs = std::filesystem;
 constexpr int frames = 4;
 constexpr DepthFit cameras{120, -3};
 
-SyntheticFilmFrame truth_of(int frame) {
-  return make_synthetic_film_frame({.still = {.width = 240, .height = 136, .samples_a_side = 2}, .frames = 8, .cut = 0},
-                                   frame + 2);
+/// A frame of a walk along a table, made once.
+const SyntheticFilmFrame& truth_of(int frame) {
+  static std::map<int, SyntheticFilmFrame> made;
+  const auto found = made.find(frame);
+  if (found != made.end()) return found->second;
+  return made[frame] = make_synthetic_film_frame(
+             {.still = {.width = 240, .height = 136, .samples_a_side = 2}, .frames = 8, .cut = 0}, frame + 2);
 }
 
 Image<float> depth_of(const Image<float>& disparity) {
@@ -37,11 +42,11 @@ Image<float> scaled(Image<float> image, float factor) {
 }
 
 std::vector<RenderedView> views_of(int frame) {
-  SyntheticFilmFrame truth = truth_of(frame);
+  const SyntheticFilmFrame& truth = truth_of(frame);
   const std::array<Image<float>, 4> vectors{scaled(truth.to_previous.x, 1), scaled(truth.to_previous.y, -1),
                                             scaled(truth.to_next.x, -1), scaled(truth.to_next.y, 1)};
-  return {{std::move(truth.pictures.left), depth_of(truth.geometry.left_disparity), vectors},
-          {std::move(truth.pictures.right), depth_of(truth.geometry.right_disparity), vectors}};
+  return {{truth.pictures.left, depth_of(truth.geometry.left_disparity), vectors},
+          {truth.pictures.right, depth_of(truth.geometry.right_disparity), vectors}};
 }
 
 class RenderedFilm : public testing::Test {
@@ -74,7 +79,7 @@ TEST_F(RenderedFilm, HasTheGeometryAndTheMotionThatWereRendered) {
   ASSERT_TRUE(is_rendered_film(film()));
   const KnownFrames known_of = known_of_rendered_film(film(), {});
   for (int i = 0; i < frames; ++i) {
-    const SyntheticFilmFrame truth = truth_of(i);
+    const SyntheticFilmFrame& truth = truth_of(i);
     const KnownFrame known = known_of(i, truth.pictures);
     EXPECT_LT(rms(known.geometry.left_disparity, truth.geometry.left_disparity), 0.1) << i;
     EXPECT_LT(rms(known.geometry.right_disparity, truth.geometry.right_disparity), 0.1) << i;
@@ -82,7 +87,7 @@ TEST_F(RenderedFilm, HasTheGeometryAndTheMotionThatWereRendered) {
     if (i == 0) continue;
     EXPECT_LT(rms(known.flow->backward.x, truth.to_previous.x), 1e-3) << i;
     EXPECT_LT(rms(known.flow->backward.y, truth.to_previous.y), 1e-3) << i;
-    const SyntheticFilmFrame before = truth_of(i - 1);
+    const SyntheticFilmFrame& before = truth_of(i - 1);
     EXPECT_LT(rms(known.flow->forward.x, before.to_next.x), 1e-3) << i;
     EXPECT_LT(rms(known.flow->forward.y, before.to_next.y), 1e-3) << i;
   }
@@ -94,7 +99,7 @@ TEST_F(RenderedFilm, HasTheGeometryAndTheMotionThatWereRendered) {
 
 TEST_F(RenderedFilm, GivesTheFramesThatAreRead) {
   const KnownFrames later = known_of_rendered_film(film(), {.from_s = 2. / 24});
-  const SyntheticFilmFrame truth = truth_of(3);
+  const SyntheticFilmFrame& truth = truth_of(3);
   const KnownFrame known = later(1, truth.pictures);
   EXPECT_LT(rms(known.geometry.left_disparity, truth.geometry.left_disparity), 0.1);
   EXPECT_TRUE(known.flow);

@@ -95,8 +95,8 @@ TEST(FindDissolve, FindsSeveralAndCountsFramesOfTheFilm) {
 TEST(FindDissolve, WhatMovesAndChangesItsLightIsNone) {
   EXPECT_TRUE(dissolves_in(walk()).empty());
   for (const FilmScene scene : {FilmScene::crowd, FilmScene::beams})
-    EXPECT_TRUE(dissolves_in(film_of(scene, 1, 24)).empty()) << static_cast<int>(scene);
-  EXPECT_TRUE(dissolves_in(film_of(FilmScene::still_life, 2, 40, FilmMotion::pan, 6)).empty());
+    EXPECT_TRUE(dissolves_in(film_of(scene, 1, 14)).empty()) << static_cast<int>(scene);
+  EXPECT_TRUE(dissolves_in(film_of(FilmScene::still_life, 2, 24, FilmMotion::pan, 6)).empty());
   const Image<Rgb8> black(96, 54);
   Frames fade, lamp, cut = walk();
   for (std::size_t i = 0; i < walk().size(); ++i) {
