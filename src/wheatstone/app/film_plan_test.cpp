@@ -146,6 +146,12 @@ TEST_F(PlannedFilm, StoppedLeavesNothing) {
     EXPECT_EQ(entry.path().filename().string().find("stopped"), std::string::npos) << entry.path();
 }
 
+TEST(FilmPlanFile, SeedsOfTheFuzzerAreRead) {
+  for (const fs::directory_entry& seed : fs::directory_iterator(fs::path(WHEATSTONE_FUZZ_CORPUS) / "film_plan"))
+    EXPECT_NO_THROW(decode_film_plan(film_plan_with_checksum(bytes_of(seed.path())), "a seed"))
+        << seed.path() << ": make it anew, as the file `plan` without its 16 bytes of head";
+}
+
 TEST(FilmPlanFile, DamagedOrOfAnotherVersionIsRefused) {
   const TemporaryFolder folder;
   FilmPlan plan{.version = "1", .film = "o.mp4", .right_film = {}, .writing = {}, .anaglyph = {}, .frames = {}};

@@ -117,6 +117,13 @@ TEST(RotoscopeStateFile, OfAnotherVersionItIsRefusedWithAHint) {
   expect_error(ErrorKind::bad_input, "s: was written by another version", [&] { decode_rotoscope_state(bytes, "s"); });
 }
 
+// Seeds of an older layout are refused at once, and test nothing.
+TEST(RotoscopeStateFile, SeedsOfTheFuzzerAreRead) {
+  for (const fs::directory_entry& seed : fs::directory_iterator(fs::path(WHEATSTONE_FUZZ_CORPUS) / "rotoscope_state"))
+    EXPECT_NO_THROW(decode_rotoscope_state(rotoscope_state_with_checksum(bytes_of(seed.path())), "a seed"))
+        << seed.path() << ": make it anew, as encode_rotoscope_state without its 16 bytes of head";
+}
+
 TEST(RotoscopeStateFile, TheEmptyStateIsReadBack) {
   const TemporaryFolder folder;
   write_rotoscope_state(folder / "a", {});
