@@ -5,6 +5,8 @@
 #include <cstring>
 #include <new>
 #include <numbers>
+#include <span>
+#include <type_traits>
 
 extern "C" {
 #include <libavutil/opt.h>
@@ -78,6 +80,25 @@ SwsContext& prepared(SwsContext* scaler, int width, int height, AVPixelFormat fr
   return *scaler;
 }
 
+bool is_rgb(AVPixelFormat format) {
+  const AVPixFmtDescriptor* description = av_pix_fmt_desc_get(format);
+  return description != nullptr && (description->flags & AV_PIX_FMT_FLAG_RGB) != 0;
+}
+
+// Where swscale comes from luma and chroma, or goes there, white is 255 * 256 in its RGB of 16 bits. Ours is 255 * 257.
+
+void from_swscale(std::span<Rgb16> row) {
+  const auto scaled = [](std::uint16_t code) {
+    return static_cast<std::uint16_t>(std::min(code + (code + 128) / 256, 65535));
+  };
+  for (Rgb16& pixel : row) pixel = {scaled(pixel.r), scaled(pixel.g), scaled(pixel.b)};
+}
+
+void to_swscale(std::span<Rgb16> row) {
+  const auto scaled = [](std::uint16_t code) { return static_cast<std::uint16_t>(code - (code + 128) / 257); };
+  for (Rgb16& pixel : row) pixel = {scaled(pixel.r), scaled(pixel.g), scaled(pixel.b)};
+}
+
 OwnedFrame frame_of(int width, int height, AVPixelFormat format) {
   OwnedFrame frame = new_frame();
   frame->width = width;
@@ -136,6 +157,8 @@ void RgbFromFrame<Pixel>::convert(const AVFrame& frame, Image<Pixel>& picture) {
   for (int y = 0; y < frame.height; ++y) {
     std::memcpy(picture.row(y).data(), rgb_->data[0] + static_cast<std::ptrdiff_t>(y) * rgb_->linesize[0],
                 picture.row(y).size_bytes());
+    if constexpr (std::is_same_v<Pixel, Rgb16>)
+      if (!is_rgb(format)) from_swscale(picture.row(y));
   }
 }
 
@@ -149,21 +172,21 @@ FrameFromRgb<Pixel>::FrameFromRgb(int width, int height, AVPixelFormat format, A
     av_opt_set_int(&scaler, "dst_h_chr_pos", place.across, 0);
     if (description->log2_chroma_h == 1) av_opt_set_int(&scaler, "dst_v_chr_pos", place.down, 0);
   }
-  const bool is_rgb = (description->flags & AV_PIX_FMT_FLAG_RGB) != 0;
   if (sws_init_context(&scaler, nullptr, nullptr) < 0) throw std::bad_alloc();
   sws_setColorspaceDetails(&scaler, sws_getCoefficients(SWS_CS_DEFAULT), 1, coefficients_of(matrix),
-                           is_rgb || range == AVCOL_RANGE_JPEG ? 1 : 0, 0, 1 << 16, 1 << 16);
+                           is_rgb(format) || range == AVCOL_RANGE_JPEG ? 1 : 0, 0, 1 << 16, 1 << 16);
 }
 
 template <class Pixel>
 OwnedFrame FrameFromRgb<Pixel>::convert(ImageView<const Pixel> picture) {
   for (int y = 0; y < rgb_->height; ++y) {
     const std::span<const Pixel> row = picture.row(std::min(y, picture.height() - 1));
-    std::uint8_t* target = rgb_->data[0] + static_cast<std::ptrdiff_t>(y) * rgb_->linesize[0];
-    std::memcpy(target, row.data(), row.size_bytes());
-    for (int x = picture.width(); x < rgb_->width; ++x) {
-      std::memcpy(target + static_cast<std::size_t>(x) * sizeof(Pixel), &row.back(), sizeof(Pixel));
-    }
+    auto* const first =
+        reinterpret_cast<Pixel*>(rgb_->data[0] + static_cast<std::ptrdiff_t>(y) * rgb_->linesize[0]);  // NOLINT
+    const std::span<Pixel> target(first, static_cast<std::size_t>(rgb_->width));
+    std::ranges::fill(std::ranges::copy(row, target.begin()).out, target.end(), row.back());
+    if constexpr (std::is_same_v<Pixel, Rgb16>)
+      if (!is_rgb(format_)) to_swscale(target);
   }
   OwnedFrame frame = frame_of(rgb_->width, rgb_->height, format_);
   sws_scale(scaler_.get(), rgb_->data, rgb_->linesize, 0, rgb_->height, frame->data, frame->linesize);
