@@ -14,7 +14,7 @@ struct DepthFit {
   double scale = 0, offset_px = 0;
 };
 
-/// Finds the fit of a pair whose left depth is known, to about a hundredth of a pixel: by matching small copies, and
+/// Finds the fit of a pair whose left depth is known, to about a twentieth of a pixel: by matching small copies, and
 /// then by comparing colours. Depth is in any unit, positive; infinitely far is allowed. None where nothing matches, or
 /// all is equally far.
 std::optional<DepthFit> fit_depth(const StereoPair& eyes, ImageView<const float> left_depth);
