@@ -300,26 +300,16 @@ Image<std::uint8_t> detail_of(const FrameTask& task, const FrameAtWork& frame, b
                               const RotoscopeState& state) {
   const Image<float>& disparity = frame.centre.disparity;
   const int width = disparity.width(), height = disparity.height();
-  if (!task.options.detail_map.empty()) {
-    const Image<std::uint8_t> map = read_detail_map(task.options.detail_map);
-    Image<std::uint8_t> detail(width, height);
-    for (int y = 0; y < height; ++y)
-      for (int x = 0; x < width; ++x) {
-        const float left = static_cast<float>(x) + 0.5f + (central_view - left_eye) * disparity(x, y);
-        const int column = std::clamp(static_cast<int>(left), 0, width - 1);
-        detail(x, y) = map((2 * column + 1) * map.width() / (2 * width), (2 * y + 1) * map.height() / (2 * height));
-      }
-    return detail;
+  if (task.options.detail_map.empty()) {
+    if (!carries || state.detail.empty()) return {};
+    return brought_along(state.detail, state.flow_before.backward, width, height, even_detail);
   }
-  if (!carries || state.detail.empty()) return {};
-  const Flow& to_before = state.flow_before.backward;
-  Image<std::uint8_t> detail(width, height, even_detail);
+  const Image<std::uint8_t> left = stretched_detail(read_detail_map(task.options.detail_map), width, height);
+  Image<std::uint8_t> detail(width, height);
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
-      const float column = std::round(static_cast<float>(x) + to_before.x(x, y)),
-                  row = std::round(static_cast<float>(y) + to_before.y(x, y));
-      if (column >= 0 && row >= 0 && column < static_cast<float>(width) && row < static_cast<float>(height))
-        detail(x, y) = state.detail(static_cast<int>(column), static_cast<int>(row));
+      const float there = static_cast<float>(x) + 0.5f + (central_view - left_eye) * disparity(x, y);
+      detail(x, y) = left(std::clamp(static_cast<int>(there), 0, width - 1), y);
     }
   return detail;
 }

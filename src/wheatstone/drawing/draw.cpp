@@ -40,8 +40,10 @@ PreparedPainting prepared(const Painting& painting, Device device, bool deep) {
 
 /// Draws the marks of some views, and lights their paint.
 void draw_on_processor(const PreparedPainting::Contents& contents, std::span<const ViewToDraw> views) {
-  std::visit([&](const auto& marks) { draw_marks(marks, contents.surfaces, views); }, contents.marks);
   const auto* const strokes = std::get_if<PreparedStrokes>(&contents.marks);
+  if (strokes != nullptr && contents.deep)
+    for (const ViewToDraw& view : views) view.drawn.deep = Image<Rgb16>(contents.width, contents.height);
+  std::visit([&](const auto& marks) { draw_marks(marks, contents.surfaces, views); }, contents.marks);
   if (strokes == nullptr || contents.relief.depth_px <= 0) return;
   tbb::parallel_for(std::size_t{0}, views.size(), [&](std::size_t i) {
     const SeenSurfaces seen = seen_surfaces(contents.surfaces, views[i].position, {contents.width, 0, contents.height});
@@ -84,8 +86,8 @@ void draw(const PreparedPainting& painting, std::span<const ViewPosition> views,
     std::vector<DrawnView> drawn(count);
     std::vector<ViewToDraw> to_draw;
     for (std::size_t i = 0; i < count; ++i)
-      to_draw.push_back({views[first + i], backgrounds.empty() ? ImageView<const Rgb8>() : backgrounds[first + i],
-                         drawn[i], contents.deep});
+      to_draw.push_back(
+          {views[first + i], backgrounds.empty() ? ImageView<const Rgb8>() : backgrounds[first + i], drawn[i]});
     draw_some(contents, to_draw);
     for (std::size_t i = 0; i < count; ++i) take(first + i, std::move(drawn[i]));
   }
@@ -106,8 +108,7 @@ DrawnView draw(const PreparedPainting& painting, ViewPosition view, ImageView<co
 void draw_over(PreparedPainting& painting, const Layer& strokes, ViewPosition view, ImageView<const Rgb8> background,
                DrawnView& drawn) {
   PreparedPainting::Contents& contents = painting.contents();
-  draw_marks_over(std::get<PreparedStrokes>(contents.marks), contents.surfaces, strokes,
-                  {view, background, drawn, contents.deep});
+  draw_marks_over(std::get<PreparedStrokes>(contents.marks), contents.surfaces, strokes, {view, background, drawn});
 }
 
 bool is_drawn_by_processor(const PreparedPainting& painting) { return painting.contents().on_gpu == nullptr; }

@@ -375,7 +375,7 @@ class BandOfViews {
   }
 
   bool finish_row_of(const ViewAtWork& at_work, int row, std::span<Rgb8> picture, std::span<std::uint8_t> bare,
-                     std::span<Rgb16> deep = {}) const {
+                     std::span<Rgb16> deep) const {
     const ImageView<const Rgb8> background = at_work.view.background;
     return finish_row(
         at_work.accumulator, row,
@@ -480,7 +480,6 @@ void draw_marks(const PreparedStrokes& painting, const Surfaces& surfaces, std::
            (view.background.width() == painting.width && view.background.height() == painting.height));
     view.drawn.picture = Image<Rgb8>(painting.width, painting.height);
     view.drawn.bare = Image<std::uint8_t>(painting.width, painting.height);
-    if (view.deep) view.drawn.deep = Image<Rgb16>(painting.width, painting.height);
   });
   draw_bands(painting, surfaces, views, bands_by_cost(painting));
 }

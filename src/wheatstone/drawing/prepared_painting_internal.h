@@ -38,9 +38,9 @@ struct ViewToDraw {
   ViewPosition position;
   ImageView<const Rgb8> background;  ///< may be empty
   DrawnView& drawn;
-  bool deep = false;  ///< with DrawnView::deep
 };
 
+/// Also draws DrawnView::deep, where that is not empty.
 void draw_marks(const PreparedStrokes& painting, const Surfaces& surfaces, std::span<const ViewToDraw> views);
 /// Adds a layer of strokes with the brush of the last one, and draws its bands again.
 void draw_marks_over(PreparedStrokes& painting, const Surfaces& surfaces, const Layer& strokes, const ViewToDraw& view);

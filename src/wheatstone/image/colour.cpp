@@ -7,7 +7,6 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
-#include <vector>
 
 namespace wheatstone {
 namespace {
@@ -19,8 +18,9 @@ double srgb_of(double linear) {
 }
 
 /// The light of each code value.
-std::vector<float> make_linear_table(std::size_t codes) {
-  std::vector<float> table(codes);
+template <std::size_t codes>
+std::array<float, codes> make_linear_table() {
+  std::array<float, codes> table{};
   for (std::size_t i = 0; i < codes; ++i)
     table[i] = static_cast<float>(linear_of(static_cast<double>(i) / static_cast<double>(codes - 1)));
   return table;
@@ -65,12 +65,12 @@ const Encoder& encoder() {
 }  // namespace
 
 float linear_from_srgb(std::uint8_t code) {
-  static const std::vector<float> table = make_linear_table(256);
+  static const std::array<float, 256> table = make_linear_table<256>();
   return table[code];
 }
 
 float linear_from_deep_srgb(std::uint16_t code) {
-  static const std::vector<float> table = make_linear_table(65536);
+  static const std::array<float, 65536> table = make_linear_table<65536>();
   return table[code];
 }
 

@@ -221,18 +221,15 @@ Brush decode_brush(const file::Brush& from, const Checker& checker) {
 Layer decode_layer(const file::Layer& from, const Checker& checker) {
   Layer layer{from.radius_px(), decode_points(from, checker), {}};
   checker.expect(std::isfinite(layer.radius_px), "a layer's radius is out of range");
-  const auto* numbers = from.numbers();
-  checker.expect(numbers == nullptr || numbers->size() == from.strokes()->size(),
-                 "a layer's strokes and their numbers differ in length");
-  const auto* parts = from.parts();
-  checker.expect(parts == nullptr || parts->size() == from.strokes()->size(),
-                 "a layer's strokes and what tells which are parts of others differ in length");
-  const auto* changes = from.changes();
-  checker.expect(changes == nullptr || changes->size() == from.strokes()->size(),
-                 "a layer's strokes and the changes of their colours differ in length");
-  const auto* fine = from.fine();
-  checker.expect(fine == nullptr || fine->size() == from.strokes()->size(),
-                 "a layer's strokes and their fine colours differ in length");
+  const auto as_many = [&](const auto* column, std::string_view what) {
+    checker.expect(column == nullptr || column->size() == from.strokes()->size(),
+                   fmt::format("a layer's strokes and {} differ in length", what));
+    return column;
+  };
+  const auto* numbers = as_many(from.numbers(), "their numbers");
+  const auto* parts = as_many(from.parts(), "what tells which are parts of others");
+  const auto* changes = as_many(from.changes(), "the changes of their colours");
+  const auto* fine = as_many(from.fine(), "their fine colours");
   layer.strokes.reserve(from.strokes()->size());
   for (flatbuffers::uoffset_t i = 0; i < from.strokes()->size(); ++i) {
     layer.strokes.push_back(decode_stroke(*from.strokes()->Get(i), layer.points.size(), checker));

@@ -15,7 +15,15 @@
 namespace wheatstone {
 namespace {
 
-float luma(Rgb8 colour) { return 0.299f * colour.r + 0.587f * colour.g + 0.114f * colour.b; }
+/// The luma (Rec. 601) of every pixel, 0..255.
+Image<float> luma_of(ImageView<const Rgb8> picture) {
+  Image<float> luma(picture.width(), picture.height());
+  tbb::parallel_for(0, picture.height(), [&](int y) {
+    std::ranges::transform(picture.row(y), luma.row(y).begin(),
+                           [](Rgb8 colour) { return 0.299f * colour.r + 0.587f * colour.g + 0.114f * colour.b; });
+  });
+  return luma;
+}
 
 /// A disparity that was matched, and the inverse of the depth there.
 struct Sample {
@@ -78,6 +86,7 @@ DepthFit refined(const StereoPair& eyes, ImageView<const float> left_depth, cons
   constexpr int steps = 8, every = 2;
   constexpr float tolerance = 12;  // levels: beyond, the pixel counts as hidden, or as shining
   const int width = eyes.left.width(), height = eyes.left.height();
+  const Image<float> left = luma_of(eyes.left), other = luma_of(eyes.right);
   DepthFit fit = start;
   for (int i = 0; i < steps; ++i) {
     // Gauss-Newton for the sum of (right(x - disparity) - left(x))^2; the unknowns are the changes of scale and offset.
@@ -93,11 +102,11 @@ DepthFit refined(const StereoPair& eyes, ImageView<const float> left_depth, cons
         if (!(at >= 1 && at < width - 2)) continue;
         const int column = static_cast<int>(at);
         const auto share = static_cast<float>(at - column);
-        const auto right = [&](int c) { return luma(eyes.right(c, y)); };
+        const auto right = [&](int c) { return other(c, y); };
         const float here = right(column) + share * (right(column + 1) - right(column));
         const float slope =
             ((1 - share) * (right(column + 1) - right(column - 1)) + share * (right(column + 2) - right(column))) / 2;
-        const float difference = luma(eyes.left(x, y)) - here;
+        const float difference = left(x, y) - here;
         if (std::abs(difference) > tolerance) continue;
         // A larger disparity moves the place in the right view to the left.
         const double by_scale = -slope * inverse, by_offset = -slope;

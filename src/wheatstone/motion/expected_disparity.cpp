@@ -10,8 +10,9 @@
 
 namespace wheatstone {
 
-Image<float> expected_disparity(const Image<float>& before, const Flow& to_before, int width, int height) {
-  Image<float> result(width, height, std::numeric_limits<float>::quiet_NaN());
+template <class Pixel>
+Image<Pixel> brought_along(const Image<Pixel>& before, const Flow& to_before, int width, int height, Pixel unknown) {
+  Image<Pixel> result(width, height, unknown);
   // From pixels of the result, and of the flow, to those of the frame before.
   const float across = static_cast<float>(before.width()) / static_cast<float>(width),
               down = static_cast<float>(before.height()) / static_cast<float>(height);
@@ -31,6 +32,12 @@ Image<float> expected_disparity(const Image<float>& before, const Flow& to_befor
     }
   });
   return result;
+}
+
+template Image<std::uint8_t> brought_along(const Image<std::uint8_t>&, const Flow&, int, int, std::uint8_t);
+
+Image<float> expected_disparity(const Image<float>& before, const Flow& to_before, int width, int height) {
+  return brought_along(before, to_before, width, height, std::numeric_limits<float>::quiet_NaN());
 }
 
 Image<std::uint8_t> still_places(const Flow& to_before, int frame_width, int width, int height) {

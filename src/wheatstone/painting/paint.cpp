@@ -77,15 +77,14 @@ void check_is_of_strokes(const Style& style) {
         fmt::format("style: {} cannot be painted for one view alone, expected brush strokes", name_of(style.marks)));
 }
 
-/// A map of any size that is stretched over a picture of this size.
-Image<std::uint8_t> stretched(ImageView<const std::uint8_t> map, int width, int height) {
+}  // namespace
+
+Image<std::uint8_t> stretched_detail(ImageView<const std::uint8_t> map, int width, int height) {
   Image<std::uint8_t> detail(width, height);
   cv::Mat to = as_mat(detail);
   cv::resize(as_mat(map), to, to.size(), 0, 0, cv::INTER_LINEAR);
   return detail;
 }
-
-}  // namespace
 
 bool reads_detail(const Style& style) {
   return style.marks == Marks::fitted_strokes && style.propagation == Propagation::strokes;
@@ -111,7 +110,8 @@ Painting plan_still(const StereoPairView& photographs, const StereoGeometryView&
   if (apart && !photographs.right.empty()) return plan_eyes_apart(photographs, geometry, style, progress);
   std::vector<View> scene =
       known.empty() ? make_still_scene(photographs, geometry, wanted) : make_known_scene(photographs, geometry, known);
-  if (!detail.empty()) scene.front().detail = stretched(detail, photographs.left.width(), photographs.left.height());
+  if (!detail.empty())
+    scene.front().detail = stretched_detail(detail, photographs.left.width(), photographs.left.height());
   PaintingMemory nothing_before;
   return plan_frame({.views = scene}, style, {.goes_on = false}, nothing_before, progress, fits).painting;
 }

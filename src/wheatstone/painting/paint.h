@@ -60,6 +60,9 @@ Painting plan_again(const StereoPairView& photographs, const StereoGeometryView&
                     StrokeFits& fits, const Progress& progress = {}, ViewRange wanted = widest_views,
                     ImageView<const std::uint8_t> detail = {}, std::span<const View> known = {});
 
+/// A detail map of any size, stretched over a picture of this size.
+Image<std::uint8_t> stretched_detail(ImageView<const std::uint8_t> map, int width, int height);
+
 /// Whether a detail map steers a style: its strokes are fitted and propagated.
 bool reads_detail(const Style& style);
 /// Throws Error{wrong_usage} for a style that no detail map steers.

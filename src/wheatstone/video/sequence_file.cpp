@@ -42,15 +42,15 @@ SequenceFile::~SequenceFile() {
 void SequenceFile::add(const Frame& frame) {
   const fs::path file = hidden_.file(++count_);
   if (file.extension() != ".exr") return write_image(file, frame.picture);
-  const bool is_deep = !frame.deep.empty();
-  if (!is_packed(layout_))
-    return is_deep ? write_picture_exr(file, frame.deep) : write_picture_exr(file, frame.picture);
-  if (is_deep) {
-    auto [left, right] = cut_apart(frame.deep, layout_, file.string());
-    return write_multiview_exr(file, std::array{std::move(left), std::move(right)});
-  }
-  StereoPair eyes = cut_apart(frame.picture, layout_, file.string());
-  write_multiview_exr(file, std::array{std::move(eyes.left), std::move(eyes.right)});
+  const auto write_exr = [&](const auto& picture) {
+    if (!is_packed(layout_)) return write_picture_exr(file, picture);
+    auto [left, right] = cut_apart(picture, layout_, file.string());
+    write_multiview_exr(file, std::array{std::move(left), std::move(right)});
+  };
+  if (frame.deep.empty())
+    write_exr(frame.picture);
+  else
+    write_exr(frame.deep);
 }
 
 void SequenceFile::finish() {

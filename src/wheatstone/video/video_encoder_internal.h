@@ -37,11 +37,10 @@ class VideoEncoder {
   const AVCodecContext& context() const { return *codec_; }
 
  private:
+  OwnedFrame to_code(const Frame& frame);
   void receive(const PacketSink& sink);
 
   OwnedCodec codec_;
-  OwnedFrame to_code(const Frame& frame);
-
   std::optional<FrameFromRgb<Rgb8>> frame_from_rgb_;
   std::optional<FrameFromRgb<Rgb16>> frame_from_deep_;  ///< of codecs with more than 8 bits
   OwnedPacket packet_ = new_packet();
