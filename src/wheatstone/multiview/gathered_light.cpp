@@ -110,20 +110,20 @@ Window window_in(const Window& window, const SplatOrder& order) {
 }
 
 GatheredLight::GatheredLight(const SplatOrders& orders, const Window& window, Deposit kind, int targets)
-    : orders_(orders), window_(window), channels_(channels_in(kind)) {
+    : orders_(orders), window_(window), kind_(kind) {
   for (const SplatOrder& order : orders) {
     const int count = targets > 0 ? targets : order.parts;
     targets_.push_back(count);
     std::vector<LightBand>& light = light_.emplace_back();
     for (int b = 0; b < order.bands; ++b)
       for (int target = 0; target < count; ++target)
-        light.push_back(order.is_mine(b) ? dark_band(order, target) : LightBand());
+        light.push_back(order.is_mine(b) ? dark_band(order, window, kind, target) : LightBand());
   }
 }
 
-LightBand GatheredLight::dark_band(const SplatOrder& order, int target) const {
-  const Window here = window_in(window_, order);
-  return {static_cast<int>(here.left), static_cast<int>(here.right), order.band_rows, channels_, target};
+LightBand dark_band(const SplatOrder& order, const Window& window, Deposit kind, int number) {
+  const Window here = window_in(window, order);
+  return {static_cast<int>(here.left), static_cast<int>(here.right), order.band_rows, channels_in(kind), number};
 }
 
 void GatheredLight::move_to_first(const Ranks& ranks) {
@@ -144,7 +144,7 @@ void GatheredLight::move_to_first(const Ranks& ranks) {
   for (int rank = 1; ranks.first() && rank < ranks.count(); ++rank) {
     auto from = all[static_cast<std::size_t>(rank)].begin();
     for_each_of(rank, [&](const SplatOrder& order, int target, LightBand& band) {
-      band = dark_band(order, target);
+      band = dark_band(order, window_, kind_, target);
       if (*from++ == std::byte{0}) return;
       const auto end = from + static_cast<std::ptrdiff_t>(band.bytes().size());
       std::copy(from, end, band.bytes().begin());
@@ -206,6 +206,10 @@ void WaitingBlocks::add(std::vector<SplatBlock> blocks) {
 
 void WaitingBlocks::finish() {
   if (!blocks_.empty()) draw_(blocks_);
+  give_back();
+}
+
+void WaitingBlocks::give_back() {
   // Other ranks' blocks come, too: not all are needed again.
   for (SplatBlock& block : blocks_)
     if (memory_.spare.size() < most_waiting) memory_.spare.push_back(std::move(block));

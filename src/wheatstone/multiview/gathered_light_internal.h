@@ -18,6 +18,12 @@ SplatOrders orders_by_plane(const RenderJob& job, const DepthPlanes& planes, Sli
 /// The projection for these pictures.
 Projection projection_for(const RenderJob& job, const SplatOrders& orders, ViewPosition view = central_view);
 
+/// Columns of a picture that a window of the view covers.
+Window window_in(const Window& window, const SplatOrder& order);
+
+/// A band of a picture in which nothing is drawn. `number` tells apart bands that are written in turn.
+LightBand dark_band(const SplatOrder& order, const Window& window, Deposit kind, int number);
+
 /// Light in all pictures: band by band, and in each as many targets as there are views or depth planes. Only the bands
 /// of this rank are there.
 class GatheredLight {
@@ -38,17 +44,12 @@ class GatheredLight {
   void move_to_first(const Ranks& ranks);
 
  private:
-  LightBand dark_band(const SplatOrder& order, int target) const;
-
   SplatOrders orders_;
   Window window_;
-  int channels_;
+  Deposit kind_;
   std::vector<int> targets_;
   std::vector<std::vector<LightBand>> light_;
 };
-
-/// Columns of a picture that a window of the view covers.
-Window window_in(const Window& window, const SplatOrder& order);
 
 /// Orders the splats of every chunk, some ten thousand particles at a time, and calls `take` with them. Ranks give each
 /// other what belongs to their bands: each takes the splats of its bands, of all ranks' chunks, in the order in which
@@ -68,6 +69,9 @@ class WaitingBlocks {
   void add(std::vector<SplatBlock> blocks);
   /// Draws what is left.
   void finish();
+  /// What is left, for those who draw it themselves and give it back then.
+  const std::vector<SplatBlock>& blocks() const { return blocks_; }
+  void give_back();
 
  private:
   OrderingMemory& memory_;

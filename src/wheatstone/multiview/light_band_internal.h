@@ -44,11 +44,13 @@ class LightBand {
     if (lit_) std::ranges::fill(lines_, Line{});
     lit_ = false;
   }
-  /// The light of a band of the same shape.
+  /// The light of a band of the same rows and columns.
   void add(const LightBand& band) {
     if (!band.lit_) return;
-    for (std::size_t line = 0; line < lines_.size(); ++line)
-      for (int i = 0; i < 16; ++i) lines_[line].values[i] += band.lines_[line].values[i];
+    const std::size_t lines = static_cast<std::size_t>(lines_a_row_) * rows_;
+    for (std::size_t line = 0; line < lines; ++line)
+      for (int i = 0; i < 16; ++i)
+        lines_[first_line_ + line].values[i] += band.lines_[band.first_line_ + line].values[i];
     lit_ = true;
   }
   /// All that is stored, for a band of the same shape.
