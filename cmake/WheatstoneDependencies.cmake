@@ -7,7 +7,7 @@ include(${CMAKE_CURRENT_LIST_DIR}/WheatstoneLibraries.cmake)
 wheatstone_find_libraries(
   opencv_core opencv_imgproc opencv_calib3d opencv_dnn opencv_features2d opencv_objdetect opencv_video opencv_ximgproc
   OpenImageIO::OpenImageIO TBB::tbb fmt::fmt nlohmann_json::nlohmann_json tomlplusplus::tomlplusplus
-  nanoflann::nanoflann ZLIB::ZLIB PNG::PNG JPEG::JPEG Eigen3::Eigen Boost::headers PkgConfig::HWY PkgConfig::HDF5
+  nanoflann::nanoflann ZLIB::ZLIB PNG::PNG JPEG::JPEG TIFF::TIFF Eigen3::Eigen Boost::headers PkgConfig::HWY PkgConfig::HDF5
   PkgConfig::CFITSIO PkgConfig::ISAL PkgConfig::ZIP PkgConfig::FFTW
   PkgConfig::LIBAV PkgConfig::AVFILTER PkgConfig::LCMS PkgConfig::HEIF PkgConfig::WEBP PkgConfig::EPOXY PkgConfig::ASSIMP
   PkgConfig::EXIF PkgConfig::FREETYPE PkgConfig::FONTCONFIG)

@@ -13,7 +13,7 @@
 #include "wheatstone/error.h"
 #include "wheatstone/files/whole_file.h"
 #include "wheatstone/image/known_values.h"
-#include "wheatstone/pictures/encode_png_internal.h"
+#include "wheatstone/pictures/encoders_internal.h"
 #include "wheatstone/pictures/jpeg.h"
 #include "wheatstone/pictures/open_picture.h"
 #include "wheatstone/pictures/picture_file.h"

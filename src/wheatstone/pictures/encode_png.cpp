@@ -1,4 +1,4 @@
-#include "wheatstone/pictures/encode_png_internal.h"
+#include "wheatstone/pictures/encoders_internal.h"
 
 #include <algorithm>
 #include <array>

@@ -165,7 +165,7 @@ OpenedPicture open_jpeg_bytes(std::string_view bytes) {
   return {std::move(reader), {}};
 }
 
-EncodedJpeg encode_jpeg(const StoredPicture& picture, const PixelRows& rows, int quality) {
+EncodedPicture encode_jpeg(const StoredPicture& picture, const PixelRows& rows, int quality) {
   struct Made {
     unsigned char* bytes = nullptr;
     unsigned long size = 0;

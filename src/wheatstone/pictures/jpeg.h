@@ -17,13 +17,8 @@ bool jpeg_is_whole(std::string_view bytes);
 /// ICCProfile, where it has them.
 OpenedPicture open_jpeg_bytes(std::string_view bytes);
 
-struct EncodedJpeg {
-  std::string bytes;
-  std::string complaint;  ///< why there are no bytes: a side is longer than 65 500 pixels, for one
-};
-
 /// A picture of bytes with one channel, grey, or three as a JPEG whose colours are kept at full resolution: halved
-/// chroma would give an anaglyph ghosts. `quality` is 1..100.
-EncodedJpeg encode_jpeg(const StoredPicture& picture, const PixelRows& rows, int quality);
+/// chroma would give an anaglyph ghosts. `quality` is 1..100. Sides have at most 65 500 pixels.
+EncodedPicture encode_jpeg(const StoredPicture& picture, const PixelRows& rows, int quality);
 
 }  // namespace wheatstone

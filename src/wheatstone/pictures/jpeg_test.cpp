@@ -41,7 +41,7 @@ TEST(Jpeg, ComesBackNearlyAsItWas) {
       for (int x = 0; x < width; ++x)
         for (int c = 0; c < channels; ++c) pixels.push_back(static_cast<std::uint8_t>(40 + 4 * x + 2 * y - 20 * c));
     const PixelRows rows{pixels.data(), bytes_kind, 0, height, std::ptrdiff_t{width} * channels};
-    const EncodedJpeg jpeg = encode_jpeg(described(width, height, channels), rows, 95);
+    const EncodedPicture jpeg = encode_jpeg(described(width, height, channels), rows, 95);
     ASSERT_EQ(jpeg.complaint, "");
     EXPECT_TRUE(is_jpeg(jpeg.bytes) && jpeg_is_whole(jpeg.bytes));
     const OpenedPicture opened = open_jpeg_bytes(jpeg.bytes);

@@ -10,7 +10,7 @@
 #include "wheatstone/error.h"
 #include "wheatstone/files/module.h"
 #include "wheatstone/files/whole_file.h"
-#include "wheatstone/pictures/encode_png_internal.h"
+#include "wheatstone/pictures/encoders_internal.h"
 #include "wheatstone/pictures/exr_header_internal.h"
 #include "wheatstone/pictures/jpeg.h"
 #include "wheatstone/pictures/picture_module_internal.h"
@@ -35,6 +35,11 @@ std::unique_ptr<PictureWriter> writer_of(const std::string& ending, const std::f
 [[noreturn]] void fail_to_encode(const std::filesystem::path& path, std::string reason) {
   std::ranges::replace(reason, '\n', ' ');
   throw Error(ErrorKind::cannot_read_write, fmt::format("{}: cannot write the picture: {}", path.string(), reason));
+}
+
+std::string whole(const std::filesystem::path& path, EncodedPicture picture) {
+  if (!picture.complaint.empty()) fail_to_encode(path, std::move(picture.complaint));
+  return std::move(picture.bytes);
 }
 
 template <class Pixel>
@@ -69,10 +74,11 @@ std::string encode_picture(const std::filesystem::path& path, const StoredPictur
   if (ending == ".png") return encode_png(picture, rows);
   if (ending == ".jpg" || ending == ".jpeg") {
     constexpr int usual_quality = 95;
-    EncodedJpeg jpeg = encode_jpeg(picture, rows, picture.value_of("jpeg:quality", usual_quality));
-    if (!jpeg.complaint.empty()) fail_to_encode(path, jpeg.complaint);
-    return std::move(jpeg.bytes);
+    return whole(path, encode_jpeg(picture, rows, picture.value_of("jpeg:quality", usual_quality)));
   }
+  const bool of_bytes = rows.kind == bytes_kind;
+  if (of_bytes && (ending == ".tif" || ending == ".tiff")) return whole(path, encode_tiff(picture, rows));
+  if (of_bytes && picture.channels == 3 && ending == ".webp") return whole(path, encode_webp(picture, rows));
   std::vector<unsigned char> bytes;
   const std::unique_ptr<PictureWriter> writer = picture_writer(ending, bytes);
   if (!writer->begin({&picture, 1}) || !writer->write(rows) || !writer->end())

@@ -125,9 +125,15 @@ std::unique_ptr<PictureWriter> picture_writer(const std::string& ending, const s
 /// The same to memory, which outlives the writer.
 std::unique_ptr<PictureWriter> picture_writer(const std::string& ending, std::vector<unsigned char>& bytes);
 
+/// The bytes of a picture file, or why there are none.
+struct EncodedPicture {
+  std::string bytes;
+  std::string complaint;
+};
+
 /// The bytes of a file with one picture, in the format of the ending of `path`, which is for messages, too: many
-/// encoders do not notice that a disk is full. A PNG is made without OpenImageIO; of its attributes, oiio:ColorSpace
-/// has an effect. Throws Error{cannot_read_write}.
+/// encoders do not notice that a disk is full. PNG, JPEG, and TIFF and WebP of bytes are made without OpenImageIO.
+/// Throws Error{cannot_read_write}.
 std::string encode_picture(const std::filesystem::path& path, const StoredPicture& picture, const PixelRows& rows);
 
 /// All rows of an image.

@@ -17,26 +17,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
-StoredPicture described(const std::string& ending, int width, int height, int channels) {
+StoredPicture described(int width, int height, int channels) {
   StoredPicture picture{width, height, channels};
   picture.put("oiio:ColorSpace", "sRGB");
-  if (ending == ".tif" || ending == ".tiff") {
-    // Otherwise the time of writing: the same picture is to be the same bytes.
-    picture.put("DateTime", "1970:01:01 00:00:00");
-    // In memory the EXIF directory would be written over the picture's own (OpenImageIO 2.4.7).
-    picture.put("tiff:write_exif", 0);
-  }
   return picture;
 }
 
-/// What a TIFF says of itself; EXIF data of their own it cannot have (see above).
+/// The notes that a TIFF takes.
 void put_tiff_notes(StoredPicture& picture, const PictureNotes& notes) {
   if (!notes.title.empty()) picture.put("ImageDescription", notes.title);
   if (!notes.taken.empty()) picture.put("DateTime", notes.taken);
-  if (notes.pixels_an_inch <= 0) return;
-  picture.put("XResolution", static_cast<float>(notes.pixels_an_inch));
-  picture.put("YResolution", static_cast<float>(notes.pixels_an_inch));
-  picture.put("ResolutionUnit", std::string("in"));
+  if (notes.pixels_an_inch > 0) picture.put("XResolution", static_cast<float>(notes.pixels_an_inch));
 }
 
 template <class Pixel>
@@ -45,7 +36,7 @@ void write_encoded(const fs::path& path, ImageView<const Pixel> image, const Pic
     throw Error(ErrorKind::wrong_usage, fmt::format("{}: unknown picture format, expected a name that ends in {}",
                                                     path.string(), fmt::join(picture_endings(), ", ")));
   const std::string ending = ending_of(path);
-  StoredPicture picture = described(ending, image.width(), image.height(), sizeof(Pixel));
+  StoredPicture picture = described(image.width(), image.height(), sizeof(Pixel));
   if (ending == ".tif" || ending == ".tiff") put_tiff_notes(picture, notes);
   write_whole_file(path, with_notes(encode_picture(path, picture, rows_of(image)), notes));
 }
@@ -63,13 +54,13 @@ bool is_picture_name(const fs::path& path) {
 }
 
 std::string encode_jpeg(ImageView<const Rgb8> image, int quality) {
-  StoredPicture picture = described(".jpg", image.width(), image.height(), 3);
+  StoredPicture picture = described(image.width(), image.height(), 3);
   picture.put("jpeg:quality", std::clamp(quality, 1, 100));
   return encode_picture("picture.jpg", picture, rows_of(image));
 }
 
 std::string encode_png(ImageView<const Rgb8> image) {
-  return encode_picture("picture.png", described(".png", image.width(), image.height(), 3), rows_of(image));
+  return encode_picture("picture.png", described(image.width(), image.height(), 3), rows_of(image));
 }
 
 void write_image(const fs::path& path, ImageView<const Rgb8> image, const PictureNotes& notes) {

@@ -48,9 +48,12 @@ TEST(WriteImage, WritesMasksAsGrey) {
   const TemporaryFolder folder;
   Image<std::uint8_t> mask(3, 2, 0);
   mask(2, 1) = 255;
-  write_image(folder / "mask.png", mask);
-  EXPECT_EQ(read_image(folder / "mask.png")(2, 1), (Rgb8{255, 255, 255}));
-  EXPECT_EQ(read_image(folder / "mask.png")(1, 1), (Rgb8{0, 0, 0}));
+  for (const char* name : {"mask.png", "mask.tif"}) {
+    write_image(folder / name, mask);
+    EXPECT_EQ(read_image(folder / name)(2, 1), (Rgb8{255, 255, 255})) << name;
+    EXPECT_EQ(read_image(folder / name)(1, 1), (Rgb8{0, 0, 0})) << name;
+    EXPECT_EQ(describe_image(folder / name).channels, 1) << name;
+  }
 }
 
 TEST(WriteImage, WritesAPartOfAPicture) {
@@ -65,7 +68,7 @@ TEST(WriteImage, WritesAPartOfAPicture) {
 
 TEST(WriteImage, WritesTheSameBytesTwice) {
   const TemporaryFolder folder;
-  for (const char* name : {"a.png", "a.tif", "a.jpg"}) {
+  for (const char* name : {"a.png", "a.tif", "a.jpg", "a.webp"}) {
     write_image(folder / name, ramp(31, 17));
     const std::string first = bytes_of(folder / name);
     write_image(folder / name, ramp(31, 17));
@@ -79,6 +82,8 @@ TEST(WriteImage, LeavesNothingBehindWhenItCannot) {
                [&] { write_image("/dev/null/a.png", ramp(4, 4)); });
   expect_error(ErrorKind::wrong_usage, "a.xyz: unknown picture format",
                [&] { write_image(folder / "a.xyz", ramp(4, 4)); });
+  expect_error(ErrorKind::cannot_read_write, "a WebP has at most 16383 pixels",
+               [&] { write_image(folder / "a.webp", ramp(16384, 1)); });
   expect_error(ErrorKind::cannot_read_write, "no pixels", [&] { write_image(folder / "a.png", Image<Rgb8>()); });
   EXPECT_TRUE(folder.is_empty());
 }

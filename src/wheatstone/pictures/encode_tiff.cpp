@@ -1,0 +1,98 @@
+#include <fmt/format.h>
+#include <tiffio.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <cstdio>
+#include <cstring>
+#include <memory>
+
+#include "wheatstone/pictures/encoders_internal.h"
+
+namespace wheatstone {
+namespace {
+
+/// The file that libtiff writes, in memory.
+struct TiffBytes {
+  std::string bytes;
+  std::size_t at = 0;
+};
+
+TiffBytes& file_of(thandle_t handle) { return *static_cast<TiffBytes*>(handle); }
+
+tmsize_t read_some(thandle_t handle, void* to, tmsize_t count) {
+  TiffBytes& file = file_of(handle);
+  const std::size_t there = std::min(static_cast<std::size_t>(count), file.bytes.size() - file.at);
+  std::memcpy(to, file.bytes.data() + file.at, there);
+  file.at += there;
+  return static_cast<tmsize_t>(there);
+}
+
+tmsize_t write_some(thandle_t handle, void* from, tmsize_t count) {
+  TiffBytes& file = file_of(handle);
+  const auto length = static_cast<std::size_t>(count);
+  if (file.bytes.size() < file.at + length) file.bytes.resize(file.at + length);
+  std::memcpy(file.bytes.data() + file.at, from, length);
+  file.at += length;
+  return count;
+}
+
+toff_t seek(thandle_t handle, toff_t offset, int whence) {
+  TiffBytes& file = file_of(handle);
+  const std::size_t from = whence == SEEK_CUR ? file.at : whence == SEEK_END ? file.bytes.size() : 0;
+  file.at = from + offset;
+  if (file.bytes.size() < file.at) file.bytes.resize(file.at);
+  return file.at;
+}
+
+int close(thandle_t) { return 0; }
+toff_t size(thandle_t handle) { return file_of(handle).bytes.size(); }
+
+void put_notes(TIFF* tiff, const StoredPicture& picture) {
+  const auto put_text = [&](std::uint32_t tag, std::string_view name) {
+    if (const auto* text = picture.find<std::string>(name)) TIFFSetField(tiff, tag, text->c_str());
+  };
+  put_text(TIFFTAG_IMAGEDESCRIPTION, "ImageDescription");
+  put_text(TIFFTAG_DATETIME, "DateTime");
+  const float pixels_an_inch = picture.value_of("XResolution", 0.f);
+  if (pixels_an_inch <= 0) return;
+  TIFFSetField(tiff, TIFFTAG_XRESOLUTION, pixels_an_inch);
+  TIFFSetField(tiff, TIFFTAG_YRESOLUTION, pixels_an_inch);
+  TIFFSetField(tiff, TIFFTAG_RESOLUTIONUNIT, RESUNIT_INCH);
+}
+
+bool put_rows(TIFF* tiff, const PixelRows& rows) {
+  // The predictor changes rows in their place.
+  std::string row(static_cast<std::size_t>(TIFFScanlineSize(tiff)), '\0');
+  for (int y = 0; y < rows.rows; ++y) {
+    std::memcpy(row.data(), static_cast<const char*>(rows.first) + y * rows.row_bytes, row.size());
+    if (TIFFWriteScanline(tiff, row.data(), static_cast<std::uint32_t>(y)) < 0) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+EncodedPicture encode_tiff(const StoredPicture& picture, const PixelRows& rows) {
+  constexpr int strip_rows = 32;
+  TiffBytes file;
+  const std::unique_ptr<TIFF, decltype(&TIFFClose)> tiff(
+      TIFFClientOpen("picture", "w", &file, read_some, write_some, seek, close, size, nullptr, nullptr), TIFFClose);
+  if (!tiff) return {{}, "libtiff does not begin a file"};
+  TIFFSetField(tiff.get(), TIFFTAG_IMAGEWIDTH, picture.width);
+  TIFFSetField(tiff.get(), TIFFTAG_IMAGELENGTH, picture.height);
+  TIFFSetField(tiff.get(), TIFFTAG_SAMPLESPERPIXEL, picture.channels);
+  TIFFSetField(tiff.get(), TIFFTAG_BITSPERSAMPLE, 8);
+  TIFFSetField(tiff.get(), TIFFTAG_PHOTOMETRIC, picture.channels == 1 ? PHOTOMETRIC_MINISBLACK : PHOTOMETRIC_RGB);
+  TIFFSetField(tiff.get(), TIFFTAG_PLANARCONFIG, PLANARCONFIG_CONTIG);
+  TIFFSetField(tiff.get(), TIFFTAG_ORIENTATION, ORIENTATION_TOPLEFT);
+  TIFFSetField(tiff.get(), TIFFTAG_COMPRESSION, COMPRESSION_ADOBE_DEFLATE);
+  TIFFSetField(tiff.get(), TIFFTAG_PREDICTOR, PREDICTOR_HORIZONTAL);
+  TIFFSetField(tiff.get(), TIFFTAG_ROWSPERSTRIP, strip_rows);
+  put_notes(tiff.get(), picture);
+  if (!put_rows(tiff.get(), rows) || TIFFFlush(tiff.get()) == 0)
+    return {{}, fmt::format("libtiff does not write {}x{} pixels", picture.width, picture.height)};
+  return {std::move(file.bytes), {}};
+}
+
+}  // namespace wheatstone
