@@ -10,6 +10,8 @@
 #include "wheatstone/app/film_plan.h"
 #include "wheatstone/app/pack_film.h"
 #include "wheatstone/app/rotoscope_film.h"
+#include "wheatstone/files/whole_file.h"
+#include "wheatstone/pictures/picture_file.h"
 #include "wheatstone/stereo/packed_pair.h"
 #include "wheatstone/video/segmented_film.h"
 
@@ -22,16 +24,25 @@ constexpr int bar_px = 64, bars = 16, height = 256, first_code = 500;
 /// A grey of ten bits.
 std::uint16_t deep_grey(int code) { return static_cast<std::uint16_t>(std::lround(code * 65535. / 1023)); }
 
-/// A ramp of bars, each lighter than the one before by a step of ten bits, for two eyes that see the same.
-void make_ramp(const fs::path& path) {
-  SegmentedFilm writer(path, {.codec = "ffv1", .pixel_format = "gbrp16le", .layout = StereoLayout::left_right}, {});
+/// Bars, each lighter than the one before by a step of ten bits.
+Image<Rgb16> ramp() {
   Image<Rgb16> deep(bars * bar_px, height);
-  Image<Rgb8> picture(bars * bar_px, height);
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < deep.width(); ++x) {
       const std::uint16_t code = deep_grey(first_code + x / bar_px);
-      const auto level = static_cast<std::uint8_t>((code + deep_level / 2) / deep_level);
       deep(x, y) = {code, code, code};
+    }
+  return deep;
+}
+
+/// A film of it for two eyes that see the same.
+void make_ramp(const fs::path& path) {
+  SegmentedFilm writer(path, {.codec = "ffv1", .pixel_format = "gbrp16le", .layout = StereoLayout::left_right}, {});
+  const Image<Rgb16> deep = ramp();
+  Image<Rgb8> picture(deep.width(), deep.height());
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < deep.width(); ++x) {
+      const auto level = static_cast<std::uint8_t>((deep(x, y).r + deep_level / 2) / deep_level);
       picture(x, y) = {level, level, level};
     }
   for (int i = 0; i < 2; ++i)
@@ -75,19 +86,38 @@ std::vector<int> codes_in(const fs::path& path) {
   return codes;
 }
 
+std::vector<int> expected_codes() {
+  std::vector<int> codes(bars);
+  std::iota(codes.begin(), codes.end(), first_code);
+  return codes;
+}
+
 // Broad strokes cross the borders of bars, and bring their colours: which codes there are tells what bits are kept.
 TEST(DeepFilm, PaintedRampHasNoStepThatEightBitsWouldMake) {
   const TemporaryFolder folder;
   make_ramp(folder / "ramp.mkv");
   paint(folder / "ramp.mkv", folder / "deep.mkv", options_of("ffv1", "gbrp16le"));
-  std::vector<int> expected(bars);
-  std::iota(expected.begin(), expected.end(), first_code);
-  EXPECT_EQ(codes_in(folder / "deep.mkv"), expected);
+  EXPECT_EQ(codes_in(folder / "deep.mkv"), expected_codes());
 
   RotoscopeFilmOptions flat = options_of("ffv1", "bgr0");
   flat.frames.deep = flat.reading.deep = false;
   paint(folder / "ramp.mkv", folder / "flat.mkv", flat);
   EXPECT_LE(codes_in(folder / "flat.mkv").size(), 5u);
+}
+
+TEST(DeepFilm, IsReadFromNumberedPicturesOfSixteenBits) {
+  const TemporaryFolder folder;
+  const Image<Rgb16> eyes = put_together(ramp(), ramp(), StereoLayout::left_right);
+  const PixelRows rows{eyes.pixels().data(), words_kind, 0, eyes.height(),
+                       static_cast<std::ptrdiff_t>(sizeof(Rgb16)) * eyes.width()};
+  StoredPicture stored{eyes.width(), eyes.height(), 3};
+  stored.kind = words_kind;
+  const std::string png = encode_picture("ramp.png", stored, rows);
+  for (const char* name : {"ramp_1.png", "ramp_2.png"}) write_whole_file(folder / name, png);
+  StereoFilmReader film =
+      open_stereo_film(folder / "ramp_%d.png", StereoLayout::left_right, {.sequence_rate = {24, 1}, .deep = true});
+  rotoscope_film(film, folder / "deep.mkv", options_of("ffv1", "gbrp16le"));
+  EXPECT_EQ(codes_in(folder / "deep.mkv"), expected_codes());
 }
 
 TEST(DeepFilm, IsPackedWithItsBitsIfBothEyesHaveThem) {

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <memory>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 #include "wheatstone/pictures/colour_profile_internal.h"
@@ -109,27 +110,33 @@ bool is_whole(std::string_view profile) {
   return length <= profile.size();
 }
 
+template <class Pixel>
 Transform transform_from(std::string_view bytes, bool grey) {
+  constexpr bool deep = std::is_same_v<Pixel, Rgb16>;
+  constexpr cmsUInt32Number rgb = deep ? TYPE_RGB_16 : TYPE_RGB_8, levels = deep ? TYPE_GRAY_16 : TYPE_GRAY_8;
   const Profile from(cmsOpenProfileFromMem(bytes.data(), static_cast<cmsUInt32Number>(bytes.size())));
   if (!from || cmsGetColorSpace(from.get()) != (grey ? cmsSigGrayData : cmsSigRgbData)) return nullptr;
   const Profile srgb(cmsCreate_sRGBProfile());
-  return Transform(cmsCreateTransform(from.get(), grey ? TYPE_GRAY_8 : TYPE_RGB_8, srgb.get(), TYPE_RGB_8,
-                                      INTENT_RELATIVE_COLORIMETRIC, cmsFLAGS_BLACKPOINTCOMPENSATION));
+  return Transform(cmsCreateTransform(from.get(), grey ? levels : rgb, srgb.get(), rgb, INTENT_RELATIVE_COLORIMETRIC,
+                                      cmsFLAGS_BLACKPOINTCOMPENSATION));
 }
 
-void convert(const Transform& transform, std::span<const Rgb8> from, std::span<Rgb8> to, bool grey) {
+template <class Pixel>
+void convert(const Transform& transform, std::span<const Pixel> from, std::span<Pixel> to, bool grey) {
   const auto count = static_cast<cmsUInt32Number>(from.size());
   if (!grey) {
     cmsDoTransform(transform.get(), from.data(), to.data(), count);
     return;
   }
-  std::vector<std::uint8_t> levels(from.size());
-  std::transform(from.begin(), from.end(), levels.begin(), [](Rgb8 colour) { return colour.r; });
+  std::vector<decltype(Pixel::r)> levels(from.size());
+  std::transform(from.begin(), from.end(), levels.begin(), [](Pixel colour) { return colour.r; });
   cmsDoTransform(transform.get(), levels.data(), to.data(), count);
 }
 
 /// Most cameras write an sRGB profile of their own making: pixels that would only move by rounding stay.
-bool changes_colours(const Transform& transform, bool grey) {
+bool changes_colours(std::string_view profile, bool grey) {
+  const Transform transform = transform_from<Rgb8>(profile, grey);
+  if (!transform) return false;
   constexpr int step = 17;
   std::vector<Rgb8> asked;
   for (int r = 0; r <= 255; r += step)
@@ -137,20 +144,28 @@ bool changes_colours(const Transform& transform, bool grey) {
       for (int b = grey ? r : 0; b <= (grey ? r : 255); b += step)
         asked.push_back({static_cast<std::uint8_t>(r), static_cast<std::uint8_t>(g), static_cast<std::uint8_t>(b)});
   std::vector<Rgb8> given(asked.size());
-  convert(transform, asked, given, grey);
+  convert<Rgb8>(transform, asked, given, grey);
   constexpr int rounding = 2;
   return !std::equal(asked.begin(), asked.end(), given.begin(), [](Rgb8 a, Rgb8 b) {
     return std::abs(a.r - b.r) <= rounding && std::abs(a.g - b.g) <= rounding && std::abs(a.b - b.b) <= rounding;
   });
 }
 
+template <class Pixel>
+void bring_any_to_srgb(Image<Pixel>& picture, std::string_view profile, bool grey) {
+  if (!is_whole(profile) || picture.empty() || !changes_colours(profile, grey)) return;
+  const Transform transform = transform_from<Pixel>(profile, grey);
+  for (int y = 0; y < picture.height(); ++y) convert<Pixel>(transform, picture.row(y), picture.row(y), grey);
+}
+
 }  // namespace
 
 void bring_to_srgb(Image<Rgb8>& picture, std::string_view profile, bool grey) {
-  if (!is_whole(profile) || picture.empty()) return;
-  const Transform transform = transform_from(profile, grey);
-  if (!transform || !changes_colours(transform, grey)) return;
-  for (int y = 0; y < picture.height(); ++y) convert(transform, picture.row(y), picture.row(y), grey);
+  bring_any_to_srgb(picture, profile, grey);
+}
+
+void bring_to_srgb(Image<Rgb16>& picture, std::string_view profile, bool grey) {
+  bring_any_to_srgb(picture, profile, grey);
 }
 
 }  // namespace wheatstone

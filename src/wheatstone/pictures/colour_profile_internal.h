@@ -11,6 +11,7 @@ namespace wheatstone {
 /// the picture alone where there is no profile, it is damaged, describes other channels (a print's CMYK, which was
 /// converted already), or says sRGB but for rounding. `grey`: the picture came with one channel.
 void bring_to_srgb(Image<Rgb8>& picture, std::string_view profile, bool grey);
+void bring_to_srgb(Image<Rgb16>& picture, std::string_view profile, bool grey);
 
 /// The ICC profile in the bytes of a PNG (chunk iCCP), WebP (chunk ICCP) or HEIF file, whose decoders do not hand it
 /// on; empty where there is none, or a damaged one, and for all other kinds of file.

@@ -7,10 +7,12 @@
 #include <cmath>
 #include <cstdint>
 #include <exception>
+#include <limits>
 #include <memory>
 #include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -47,15 +49,17 @@ ShownChannels shown_channels(const StoredPicture& picture) {
   return shown;
 }
 
-std::uint8_t to_byte(float value) {
-  return static_cast<std::uint8_t>(std::lround(255.0f * std::clamp(std::isnan(value) ? 0.0f : value, 0.0f, 1.0f)));
+template <class Code>
+Code code_of(float value) {
+  constexpr float white = std::numeric_limits<Code>::max();
+  return static_cast<Code>(std::lround(white * std::clamp(std::isnan(value) ? 0.0f : value, 0.0f, 1.0f)));
 }
 
 float srgb_from_linear(float linear) {
   return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1 / 2.4f) - 0.055f;
 }
 
-/// What is done to every pixel on its way to 8-bit sRGB over white.
+/// What is done to every pixel on its way to sRGB over white.
 struct Conversion {
   ShownChannels shown;
   bool linear = false;         ///< float values in linear light
@@ -72,7 +76,8 @@ Conversion conversion_of(const StoredPicture& picture) {
   return conversion;
 }
 
-void convert_row(std::span<const float> values, int channels, const Conversion& how, std::span<Rgb8> out) {
+template <class Pixel>
+void convert_row(std::span<const float> values, int channels, const Conversion& how, std::span<Pixel> out) {
   const auto encoded = [&](float value) { return how.linear ? srgb_from_linear(std::max(value, 0.0f)) : value; };
   for (std::size_t x = 0; x < out.size(); ++x) {
     const float* pixel = values.data() + x * channels;
@@ -80,32 +85,36 @@ void convert_row(std::span<const float> values, int channels, const Conversion& 
     const auto over_white = [&](int channel) {
       const float colour = how.premultiplied ? pixel[channel] : pixel[channel] * alpha;
       // Light adds up linearly: a linear picture meets its white before it is encoded.
-      return to_byte(encoded(colour + 1 - alpha));
+      return code_of<decltype(Pixel::r)>(encoded(colour + 1 - alpha));
     };
     out[x] = {over_white(how.shown.r), over_white(how.shown.g), over_white(how.shown.b)};
   }
 }
 
-Image<Rgb8> read_converted(const fs::path& path, PictureReader& reader) {
+template <class Pixel>
+Image<Pixel> read_converted(const fs::path& path, PictureReader& reader) {
   const StoredPicture& stored = reader.picture();
-  Image<Rgb8> picture(stored.width, stored.height);
-  if (stored.channels == 3 && stored.kind == bytes_kind && stored.alpha_channel < 0) {
-    if (!reader.read(&picture.pixels().data()->r)) refuse_damaged(path, reader.complaint());
-    return picture;
+  Image<Pixel> picture(stored.width, stored.height);
+  if constexpr (std::is_same_v<Pixel, Rgb8>) {
+    if (stored.channels == 3 && stored.kind == bytes_kind && stored.alpha_channel < 0) {
+      if (!reader.read(&picture.pixels().data()->r)) refuse_damaged(path, reader.complaint());
+      return picture;
+    }
   }
   const std::size_t row_values = static_cast<std::size_t>(stored.width) * static_cast<std::size_t>(stored.channels);
   const auto values = std::make_unique_for_overwrite<float[]>(row_values * static_cast<std::size_t>(stored.height));
   if (!reader.read(0, stored.height, stored.channels, values.get())) refuse_damaged(path, reader.complaint());
   const Conversion how = conversion_of(stored);
   for (int y = 0; y < stored.height; ++y)
-    convert_row({values.get() + static_cast<std::size_t>(y) * row_values, row_values}, stored.channels, how,
-                picture.row(y));
+    convert_row<Pixel>({values.get() + static_cast<std::size_t>(y) * row_values, row_values}, stored.channels, how,
+                       picture.row(y));
   return picture;
 }
 
-Image<Rgb8> read_opened(const fs::path& path, const OpenPicture& open) {
+template <class Pixel = Rgb8>
+Image<Pixel> read_opened(const fs::path& path, const OpenPicture& open) {
   const StoredPicture& stored = open.reader->picture();
-  Image<Rgb8> picture = read_converted(path, *open.reader);
+  Image<Pixel> picture = read_converted<Pixel>(path, *open.reader);
   // JPEG's decoder complains of stray bytes between the markers: they come from cameras and are harmless.
   const std::string complaint = open.reader->complaint();
   if (!complaint.empty() && open.reader->format() != "jpeg") refuse_damaged(path, complaint);
@@ -125,6 +134,11 @@ std::vector<Image<Rgb8>> read_png_frames(std::string_view bytes, const fs::path&
 }  // namespace
 
 Image<Rgb8> read_image(const fs::path& path) { return read_opened(path, open_picture(path)); }
+
+Image<Rgb16> read_deep_image(const fs::path& path) {
+  const OpenPicture open = open_picture(path);
+  return open.reader->picture().kind.bits > 8 ? read_opened<Rgb16>(path, open) : Image<Rgb16>();
+}
 
 std::array<Image<Rgb8>, 2> read_two_images(const fs::path& first, const fs::path& second) {
   const std::array paths{&first, &second};

@@ -15,6 +15,8 @@ namespace wheatstone {
 /// that is damaged or does not fit the picture is left aside, as viewers do.
 /// Throws Error{bad_input} where the file is missing, is no picture, or is truncated.
 Image<Rgb8> read_image(const std::filesystem::path& path);
+/// The same with 16 bits a channel; empty where the file has 8 or fewer.
+Image<Rgb16> read_deep_image(const std::filesystem::path& path);
 
 /// Two pictures, which are read at once. Throws as read_image, for the first of them where both cannot be read.
 std::array<Image<Rgb8>, 2> read_two_images(const std::filesystem::path& first, const std::filesystem::path& second);

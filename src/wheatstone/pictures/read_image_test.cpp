@@ -3,6 +3,7 @@
 #include <OpenImageIO/imageio.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdlib>
 
 #include "temporary_folder.h"
@@ -71,6 +72,21 @@ TEST(ReadImage, RoundsSixteenBits) {
                                {257 * 5, 257 * 5 + 128, 257 * 5 + 129});
     EXPECT_EQ(read_image(folder / name)(0, 0), (Rgb8{5, 5, 6})) << name;
   }
+}
+
+TEST(ReadImage, KeepsSixteenBitsForWhoAsks) {
+  const TemporaryFolder folder;
+  for (const char* name : {"deep.png", "deep.tif"}) {
+    put_picture<std::uint16_t>(folder / name, layout(1, 1, 3, OIIO::TypeDesc::UINT16), {1, 257 * 5 + 128, 65534});
+    EXPECT_EQ(read_deep_image(folder / name)(0, 0), (Rgb16{1, 257 * 5 + 128, 65534})) << name;
+  }
+  put_picture<float>(folder / "light.exr", layout(1, 1, 3, OIIO::TypeDesc::FLOAT), {0.f, 0.25f, 1.f});
+  const Rgb16 light = read_deep_image(folder / "light.exr")(0, 0);
+  EXPECT_EQ(light.r, 0);
+  EXPECT_NEAR(light.g, 65535 * (1.055 * std::pow(0.25, 1 / 2.4) - 0.055), 1);
+  EXPECT_EQ(light.b, 65535);
+  put_picture<std::uint8_t>(folder / "flat.png", layout(1, 1, 3, OIIO::TypeDesc::UINT8), {1, 2, 3});
+  EXPECT_TRUE(read_deep_image(folder / "flat.png").empty());
 }
 
 TEST(ReadImage, CompositesAlphaOverWhite) {

@@ -43,8 +43,12 @@ Image<Rgb8> PictureSequence::picture(std::int64_t number) const {
 }
 
 void PictureSequence::convert_deep(Image<Rgb16>& picture) const {
-  if (!is_multiview_) return;
-  const std::vector<Image<Rgb16>> views = read_deep_multiview_exr(pattern_.file(first_ + next_ - 1));
+  const std::filesystem::path file = pattern_.file(first_ + next_ - 1);
+  if (!is_multiview_) {
+    picture = read_deep_image(file);
+    return;
+  }
+  const std::vector<Image<Rgb16>> views = read_deep_multiview_exr(file);
   picture = put_together(views.front(), views.back(), StereoLayout::left_right);
 }
 

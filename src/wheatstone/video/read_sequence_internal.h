@@ -19,7 +19,7 @@ class PictureSequence {
   bool step();
   FrameTime time() const { return {next_ - 1, 1}; }
   void convert(Image<Rgb8>& picture) const;
-  /// The same with 16 bits a channel, of OpenEXR with two views; of others, nothing.
+  /// The same with 16 bits a channel; empty of pictures with 8.
   void convert_deep(Image<Rgb16>& picture) const;
   std::optional<std::string> loss() const { return {}; }
 
