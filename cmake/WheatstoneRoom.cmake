@@ -28,8 +28,7 @@ endif()
 
 # Code that computes little takes much less time to compile when it is optimised little: in all of the builds that are
 # named, or under sanitizers alone, where that saves a third.
-set(wheatstone_rooms_of_records models share study)
-set(wheatstone_rooms_around_computing app display video)
+set(wheatstone_rooms_around_computing app display models share study video)
 function(wheatstone_optimise_little target configurations)
   target_compile_options(${target} PRIVATE $<$<CONFIG:${configurations}>:-Og>)
 endfunction()
@@ -80,9 +79,7 @@ function(wheatstone_room room)
   target_include_directories(${target} PUBLIC
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   target_link_libraries(${target} PRIVATE $<BUILD_INTERFACE:wheatstone_warnings> ${ARG_LIBRARIES})
-  if(room IN_LIST wheatstone_rooms_of_records)
-    wheatstone_optimise_little(${target} Release,RelWithDebInfo)
-  elseif(room IN_LIST wheatstone_rooms_around_computing)
+  if(room IN_LIST wheatstone_rooms_around_computing)
     wheatstone_optimise_little(${target} RelWithDebInfo)
   endif()
   foreach(above IN LISTS ARG_ABOVE)
