@@ -154,11 +154,6 @@ void GatheredLight::move_to_first(const Ranks& ranks) {
   }
 }
 
-void GatheredLight::darken() {
-  for (std::vector<LightBand>& bands : light_)
-    tbb::parallel_for(std::size_t{0}, bands.size(), [&](std::size_t i) { bands[i].darken(); });
-}
-
 void GatheredLight::add(const GatheredLight& light) {
   for (std::size_t picture = 0; picture < light_.size(); ++picture)
     tbb::parallel_for(std::size_t{0}, light_[picture].size(),

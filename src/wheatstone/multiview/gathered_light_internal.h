@@ -29,7 +29,6 @@ LightBand dark_band(const SplatOrder& order, const Window& window, Deposit kind,
 class GatheredLight {
  public:
   GatheredLight(const SplatOrders& orders, const Window& window, Deposit kind, int targets);
-  void darken();
   /// Light of the same pictures and targets.
   void add(const GatheredLight& light);
   LightBand& band(std::size_t picture, int band, int target) {
