@@ -57,8 +57,8 @@ function(wheatstone_add_gtest name target)
     LABELS long TIMEOUT 1800 ENVIRONMENT "GTEST_FILTER=*Long.*;GTEST_BRIEF=1")
 endfunction()
 
-# Files that are compiled once for each kind of processor stay by themselves. Each kind takes as long to compile as all
-# others: what has SSSE3 only (before 2008) runs the scalar code, and sanitizers check that and what is newer than SSE4.
+# Files that are compiled once for each kind of processor stay by themselves. Every kind takes the same time to
+# compile, so old ones are left out: SSSE3 without SSE4 (before 2008), and under sanitizers SSE4, too.
 function(wheatstone_alone_in_unity)
   foreach(source IN LISTS ARGN)
     if(source MATCHES "_simd")

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
+#include <limits>
 #include <memory>
 #include <span>
 #include <type_traits>
@@ -134,27 +135,29 @@ void convert(const Transform& transform, std::span<const Pixel> from, std::span<
 }
 
 /// Most cameras write an sRGB profile of their own making: pixels that would only move by rounding stay.
-bool changes_colours(std::string_view profile, bool grey) {
-  const Transform transform = transform_from<Rgb8>(profile, grey);
-  if (!transform) return false;
+template <class Pixel>
+bool changes_colours(const Transform& transform, bool grey) {
+  using Code = decltype(Pixel::r);
+  constexpr int level = std::numeric_limits<Code>::max() / 255;
   constexpr int step = 17;
-  std::vector<Rgb8> asked;
+  std::vector<Pixel> asked;
   for (int r = 0; r <= 255; r += step)
     for (int g = grey ? r : 0; g <= (grey ? r : 255); g += step)
       for (int b = grey ? r : 0; b <= (grey ? r : 255); b += step)
-        asked.push_back({static_cast<std::uint8_t>(r), static_cast<std::uint8_t>(g), static_cast<std::uint8_t>(b)});
-  std::vector<Rgb8> given(asked.size());
-  convert<Rgb8>(transform, asked, given, grey);
-  constexpr int rounding = 2;
-  return !std::equal(asked.begin(), asked.end(), given.begin(), [](Rgb8 a, Rgb8 b) {
+        asked.push_back({static_cast<Code>(r * level), static_cast<Code>(g * level), static_cast<Code>(b * level)});
+  std::vector<Pixel> given(asked.size());
+  convert<Pixel>(transform, asked, given, grey);
+  constexpr int rounding = 2 * level;
+  return !std::equal(asked.begin(), asked.end(), given.begin(), [](Pixel a, Pixel b) {
     return std::abs(a.r - b.r) <= rounding && std::abs(a.g - b.g) <= rounding && std::abs(a.b - b.b) <= rounding;
   });
 }
 
 template <class Pixel>
 void bring_any_to_srgb(Image<Pixel>& picture, std::string_view profile, bool grey) {
-  if (!is_whole(profile) || picture.empty() || !changes_colours(profile, grey)) return;
+  if (!is_whole(profile) || picture.empty()) return;
   const Transform transform = transform_from<Pixel>(profile, grey);
+  if (!transform || !changes_colours<Pixel>(transform, grey)) return;
   for (int y = 0; y < picture.height(); ++y) convert<Pixel>(transform, picture.row(y), picture.row(y), grey);
 }
 

@@ -1,52 +1,17 @@
 #include <fmt/format.h>
 #include <tiffio.h>
 
-#include <algorithm>
+#include <tiffio.hxx>
+
 #include <cstdint>
-#include <cstdio>
 #include <cstring>
 #include <memory>
+#include <sstream>
 
 #include "wheatstone/pictures/encoders_internal.h"
 
 namespace wheatstone {
 namespace {
-
-/// The file that libtiff writes, in memory.
-struct TiffBytes {
-  std::string bytes;
-  std::size_t at = 0;
-};
-
-TiffBytes& file_of(thandle_t handle) { return *static_cast<TiffBytes*>(handle); }
-
-tmsize_t read_some(thandle_t handle, void* to, tmsize_t count) {
-  TiffBytes& file = file_of(handle);
-  const std::size_t there = std::min(static_cast<std::size_t>(count), file.bytes.size() - file.at);
-  std::memcpy(to, file.bytes.data() + file.at, there);
-  file.at += there;
-  return static_cast<tmsize_t>(there);
-}
-
-tmsize_t write_some(thandle_t handle, void* from, tmsize_t count) {
-  TiffBytes& file = file_of(handle);
-  const auto length = static_cast<std::size_t>(count);
-  if (file.bytes.size() < file.at + length) file.bytes.resize(file.at + length);
-  std::memcpy(file.bytes.data() + file.at, from, length);
-  file.at += length;
-  return count;
-}
-
-toff_t seek(thandle_t handle, toff_t offset, int whence) {
-  TiffBytes& file = file_of(handle);
-  const std::size_t from = whence == SEEK_CUR ? file.at : whence == SEEK_END ? file.bytes.size() : 0;
-  file.at = from + offset;
-  if (file.bytes.size() < file.at) file.bytes.resize(file.at);
-  return file.at;
-}
-
-int close(thandle_t) { return 0; }
-toff_t size(thandle_t handle) { return file_of(handle).bytes.size(); }
 
 void put_notes(TIFF* tiff, const StoredPicture& picture) {
   const auto put_text = [&](std::uint32_t tag, std::string_view name) {
@@ -75,9 +40,8 @@ bool put_rows(TIFF* tiff, const PixelRows& rows) {
 
 EncodedPicture encode_tiff(const StoredPicture& picture, const PixelRows& rows) {
   constexpr int strip_rows = 32;
-  TiffBytes file;
-  const std::unique_ptr<TIFF, decltype(&TIFFClose)> tiff(
-      TIFFClientOpen("picture", "w", &file, read_some, write_some, seek, close, size, nullptr, nullptr), TIFFClose);
+  std::ostringstream file;
+  const std::unique_ptr<TIFF, decltype(&TIFFClose)> tiff(TIFFStreamOpen("picture", &file), TIFFClose);
   if (!tiff) return {{}, "libtiff does not begin a file"};
   TIFFSetField(tiff.get(), TIFFTAG_IMAGEWIDTH, picture.width);
   TIFFSetField(tiff.get(), TIFFTAG_IMAGELENGTH, picture.height);
@@ -92,7 +56,7 @@ EncodedPicture encode_tiff(const StoredPicture& picture, const PixelRows& rows) 
   put_notes(tiff.get(), picture);
   if (!put_rows(tiff.get(), rows) || TIFFFlush(tiff.get()) == 0)
     return {{}, fmt::format("libtiff does not write {}x{} pixels", picture.width, picture.height)};
-  return {std::move(file.bytes), {}};
+  return {std::move(file).str(), {}};
 }
 
 }  // namespace wheatstone
