@@ -29,6 +29,8 @@ endif()
 # Code that computes little takes much less time to compile when it is optimised little: in all of the builds that are
 # named, or under sanitizers alone, where that saves a third.
 set(wheatstone_rooms_around_computing app display models share study video)
+# Under sanitizers, what casts rays and spreads colours takes half of some tests: it is optimised as usual.
+set(wheatstone_rooms_of_long_loops curves synthetic)
 function(wheatstone_optimise_little target configurations)
   target_compile_options(${target} PRIVATE $<$<CONFIG:${configurations}>:-Og>)
 endfunction()
@@ -38,6 +40,7 @@ endfunction()
 # work at the end. What takes long by nature (random runs, real photographs and films of full size) is in suites whose
 # names end in "Long": `make test` leaves them out, `make test-long` runs them and nothing else.
 set(wheatstone_longest_tests cli app examples matching)
+set(WHEATSTONE_TESTS_LEFT_OUT "" CACHE STRING "Suites of tests that are not run, as GoogleTest's filter names them")
 function(wheatstone_add_gtest name target)
   set(shards 1)
   if(name IN_LIST wheatstone_longest_tests)
@@ -50,7 +53,7 @@ function(wheatstone_add_gtest name target)
     math(EXPR index "${shard} - 1")
     add_test(NAME ${name}.${shard} COMMAND ${target})
     set_tests_properties(${name}.${shard} PROPERTIES COST ${shards} TIMEOUT 1800
-      ENVIRONMENT "GTEST_FILTER=-*Long.*;GTEST_TOTAL_SHARDS=${shards};GTEST_SHARD_INDEX=${index};GTEST_BRIEF=1")
+      ENVIRONMENT "GTEST_FILTER=-*Long.*:${WHEATSTONE_TESTS_LEFT_OUT};GTEST_TOTAL_SHARDS=${shards};GTEST_SHARD_INDEX=${index};GTEST_BRIEF=1")
   endforeach()
   add_test(NAME ${name}.long COMMAND ${target})
   set_tests_properties(${name}.long PROPERTIES
@@ -81,6 +84,8 @@ function(wheatstone_room room)
   target_link_libraries(${target} PRIVATE $<BUILD_INTERFACE:wheatstone_warnings> ${ARG_LIBRARIES})
   if(room IN_LIST wheatstone_rooms_around_computing)
     wheatstone_optimise_little(${target} RelWithDebInfo)
+  elseif(room IN_LIST wheatstone_rooms_of_long_loops)
+    target_compile_options(${target} PRIVATE $<$<CONFIG:RelWithDebInfo>:-O2>)
   endif()
   foreach(above IN LISTS ARG_ABOVE)
     target_link_libraries(${target} PUBLIC wheatstone_${above})

@@ -41,7 +41,7 @@ std::string bytes_of_fields(const auto& value) {
 template <class Value>
 Value read_fields(std::string_view bytes) {
   FieldReader reader(bytes, "damaged");
-  Value value;
+  Value value{};
   reader(value);
   reader.expect_end();
   return value;
