@@ -211,4 +211,25 @@ TEST(ModelFilm, StrokesStickToAModelThatTurns) {
   }
 }
 
+TEST(ModelFilm, ADisplaysViewsAreBareNowhere) {
+  for (const Model& model : {make_knot(5000), make_tree(5000)}) {
+    ParticleFramesOptions film = turntable(96);
+    film.particles.width = 480;
+    film.particles.height = 360;
+    ModelFilm made = film_of_model(ready(model), film, {24, 1});
+    RotoscopeState state;
+    RotoscopeOptions options{.style = style_by_name("impressionist")};
+    options.display = {
+        .views = {.views = 9, .width = 300, .height = 300, .span = 3}, .quilt = QuiltLayout{3, 3}, .screen = {}};
+    options.carrying.length_tolerance = length_tolerance_on_models;
+    StereoFrame frame;
+    for (int i = 0; i < 3 && made.source.read(frame); ++i) {
+      const KnownFrame known = made.known(i, {frame.left, frame.right});
+      const RotoscopedFrame painted = rotoscope_frame({frame.left, frame.right}, options, state, &known);
+      EXPECT_LE(painted.worst_bare_share, 1e-3) << i;
+      RecordProperty("worst_bare_percent", std::to_string(100 * painted.worst_bare_share));
+    }
+  }
+}
+
 }  // namespace wheatstone::model_pictures_test

@@ -156,6 +156,9 @@ PlannedFrame plan_frame(const FilmFrame& frame, const Style& style, const CarryO
   }
   PlannedFrame planned = plan_without_repair(frame, style, options, memory, progress, fits);
   repair(frame.views, style, planned.painting);
+  // Films for displays alone show views beside the eyes.
+  if (options.goes_on && std::ranges::any_of(frame.views, &View::continued))
+    cover_bare(frame.views, style, planned.painting);
   return planned;
 }
 

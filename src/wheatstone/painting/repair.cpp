@@ -13,6 +13,7 @@
 #include "wheatstone/painting/repair_internal.h"
 #include "wheatstone/regions/repair.h"
 #include "wheatstone/stereo/occlusion.h"
+#include "wheatstone/stereo/view_scale.h"
 #include "wheatstone/strokes/layer_order.h"
 #include "wheatstone/strokes/repair.h"
 
@@ -101,6 +102,26 @@ void repair_shown(std::span<const View> views, const Style& style, Painting& pai
   }
 }
 
+/// A mask of pixels of the reference view, as the view's own pictures have them.
+Image<std::uint8_t> in_pixels_of(const View& view, const Image<std::uint8_t>& mask) {
+  Image<std::uint8_t> own(view.colour.width(), view.colour.height());
+  for (int y = 0; y < own.height(); ++y)
+    for (int x = 0; x < own.width(); ++x)
+      if (mask.contains(x + view.frame.origin_px, y)) own(x, y) = mask(x + view.frame.origin_px, y);
+  return own;
+}
+
+/// The views that are nearer to this one than to any other of these.
+ViewRange halfway_to_others(std::span<const ViewPosition> positions, ViewPosition view) {
+  ViewRange range = all_views;
+  for (const ViewPosition other : positions) {
+    const ViewPosition middle((other.eye_separations() + view.eye_separations()) / 2);
+    if (other < view) range.first = std::max(range.first, middle);
+    if (view < other) range.last = std::min(range.last, middle);
+  }
+  return range;
+}
+
 struct Rows {
   int first, end;
 };
@@ -135,6 +156,32 @@ void repair(std::span<const View> views, const Style& style, Painting& painting)
   const bool changes_colours = is_of_strokes(style) && style.jitter != ColourJitter{};
   if (!of_regions && !changes_colours) repair_displaced(views, style, painting);
   if (!is_of_strokes(style)) repair_shown(views, style, painting);
+}
+
+void cover_bare(std::span<const View> views, const Style& style, Painting& painting) {
+  auto* const strokes = std::get_if<StrokePainting>(&painting.marks);
+  if (strokes == nullptr || strokes->layers.empty()) return;
+  std::vector<View> scene = at_reference_scale(views);
+  // The eyes are near enough to the reference view.
+  std::erase_if(scene, [&](const View& view) { return !view.continued && view.position != views.front().position; });
+  std::vector<ViewPosition> positions;
+  for (const View& view : scene) positions.push_back(view.position);
+  PreparedPainting prepared = prepare(painting, {.relief = false});
+  std::vector<DrawnView> drawn = draw(prepared, positions);
+  for (std::size_t i = 0; i < scene.size(); ++i) {
+    const View& view = scene[i];
+    const auto cover = [&](ImageView<const std::uint8_t> bare, ImageView<const float> disparity, ViewRange seen_from) {
+      Layer marks = strokes_for({view.colour, bare, disparity, view.position, positions.front(), seen_from}, style);
+      if (marks.strokes.empty()) return;
+      for (ControlPoint& point : marks.points) point.x += static_cast<float>(view.frame.origin_px);
+      append_strokes(marks, strokes->layers.back());
+      draw_over(prepared, marks, view.position, {}, drawn[i]);
+    };
+    cover(in_pixels_of(view, drawn[i].bare), view.disparity, all_views);
+    // What is bare still is hidden by surfaces of neighbouring pixels.
+    const Image<std::uint8_t> hidden = in_pixels_of(view, drawn[i].bare);
+    cover(hidden, disparity_before(view.disparity, hidden), halfway_to_others(positions, view.position));
+  }
 }
 
 bool is_repaired_when_drawn(const Painting& painting, const Style& style) {

@@ -21,6 +21,11 @@ PlannedFrame plan_without_repair(const FilmFrame& frame, const Style& style, con
 /// those of eyes apart are left as they are. The painting has its surfaces.
 void repair(std::span<const View> views, const Style& style, Painting& painting);
 
+/// Covers what strokes leave bare in the reference view, in those beside the eyes and between them, with marks that are
+/// not carried on: in a film, surfaces that turn into sight have faint strokes, and edges beside the reference view
+/// have none.
+void cover_bare(std::span<const View> views, const Style& style, Painting& painting);
+
 /// True for paintings of strokes that are repaired once they are drawn: what is wrong is then known, whatever made it.
 /// Not for those whose colours are changed at random, or whose paint is lit, those of eyes apart, and narrow ones.
 bool is_repaired_when_drawn(const Painting& painting, const Style& style);
