@@ -29,11 +29,11 @@ endif()
 # Code that computes little takes much less time to compile when it is optimised little: in all of the builds that are
 # named, or under sanitizers alone, where that saves a third.
 set(wheatstone_rooms_around_computing app display models share study video)
-# Under sanitizers, what casts rays and spreads colours takes half of some tests: it is optimised as usual.
-set(wheatstone_rooms_of_long_loops curves synthetic)
 function(wheatstone_optimise_little target configurations)
   target_compile_options(${target} PRIVATE $<$<CONFIG:${configurations}>:-Og>)
 endfunction()
+# Under sanitizers, what casts rays and spreads colours takes half of some tests: it is optimised as usual.
+set(wheatstone_rooms_of_long_loops curves synthetic)
 
 # A test program is one entry of ctest: what its tests share, such as rendered scenes, is made once. The programs that
 # take longest are two entries, each of which runs every second test, and begin first, so that no processor is without

@@ -161,6 +161,19 @@ TEST(ModelFilm, SkippedFramesChangeNothing) {
   EXPECT_FALSE(later.source.read(frame));
 }
 
+ModelFilm larger_turntable(const Model& model) {
+  ParticleFramesOptions film = turntable(96);
+  film.particles.width = 480;
+  film.particles.height = 360;
+  return film_of_model(ready(model), film, {24, 1});
+}
+
+RotoscopeOptions options_on_models() {
+  RotoscopeOptions options{.style = style_by_name("impressionist")};
+  options.carrying.length_tolerance = length_tolerance_on_models;
+  return options;
+}
+
 /// What becomes of the strokes of a painted turntable.
 struct PaintedTurntable {
   double survival = 0;
@@ -168,13 +181,10 @@ struct PaintedTurntable {
   double worst_bare_share = 0;
 };
 PaintedTurntable paint_turntable(const Model& model, int frames, bool anew) {
-  ParticleFramesOptions film = turntable(96);
-  film.particles.width = 480;
-  film.particles.height = 360;
-  ModelFilm made = film_of_model(ready(model), film, {24, 1});
+  ModelFilm made = larger_turntable(model);
   RotoscopeState state;
-  RotoscopeOptions options{.style = style_by_name("impressionist"), .anew = anew};
-  options.carrying.length_tolerance = length_tolerance_on_models;
+  RotoscopeOptions options = options_on_models();
+  options.anew = anew;
   PaintedTurntable result;
   TemporalError of_source, of_painting;
   Image<Rgb8> source_before, painted_before;
@@ -213,15 +223,11 @@ TEST(ModelFilm, StrokesStickToAModelThatTurns) {
 
 TEST(ModelFilm, ADisplaysViewsAreBareNowhere) {
   for (const Model& model : {make_knot(5000), make_tree(5000)}) {
-    ParticleFramesOptions film = turntable(96);
-    film.particles.width = 480;
-    film.particles.height = 360;
-    ModelFilm made = film_of_model(ready(model), film, {24, 1});
+    ModelFilm made = larger_turntable(model);
     RotoscopeState state;
-    RotoscopeOptions options{.style = style_by_name("impressionist")};
+    RotoscopeOptions options = options_on_models();
     options.display = {
         .views = {.views = 9, .width = 300, .height = 300, .span = 3}, .quilt = QuiltLayout{3, 3}, .screen = {}};
-    options.carrying.length_tolerance = length_tolerance_on_models;
     StereoFrame frame;
     for (int i = 0; i < 3 && made.source.read(frame); ++i) {
       const KnownFrame known = made.known(i, {frame.left, frame.right});

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <iterator>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -161,9 +162,10 @@ void repair(std::span<const View> views, const Style& style, Painting& painting)
 void cover_bare(std::span<const View> views, const Style& style, Painting& painting) {
   auto* const strokes = std::get_if<StrokePainting>(&painting.marks);
   if (strokes == nullptr || strokes->layers.empty()) return;
-  std::vector<View> scene = at_reference_scale(views);
   // The eyes are near enough to the reference view.
-  std::erase_if(scene, [&](const View& view) { return !view.continued && view.position != views.front().position; });
+  std::vector<View> scene{views.front()};
+  std::ranges::copy_if(views.subspan(1), std::back_inserter(scene), &View::continued);
+  scene = at_reference_scale(scene);
   std::vector<ViewPosition> positions;
   for (const View& view : scene) positions.push_back(view.position);
   PreparedPainting prepared = prepare(painting, {.relief = false});
