@@ -59,6 +59,8 @@ std::vector<FilmShot> shots_from(const ShotsArguments& arguments, const FilmFile
   if (options.mask) no_budget = no_plane = keeps_depth_in_masks;
   if (options.frames.display) no_budget = "with --display; --span sets how deep it looks";
   std::vector<UnusedKey> unused;
+  if (limited.of_one_eye || options.known)
+    unused.push_back({"disparity", limited.of_one_eye ? "on a film of one eye" : "on a film whose depth is known"});
   if (!no_budget.empty()) unused.push_back({"depth-budget", no_budget});
   if (!no_plane.empty()) unused.push_back({"zero-parallax", no_plane});
   if (limited.of_marks) unused.push_back({"dissolve", "on marks (.wst); they are not drawn"});

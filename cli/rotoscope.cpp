@@ -296,13 +296,15 @@ void refuse_for_one_eye(const RotoscopeArguments& arguments, const FilmFiles& fi
                  "on a film of one eye");
 }
 
-/// The shots of a file, whose detail maps are sources, too.
+/// The shots of a file, whose maps are sources, too.
 void take_shots(const RotoscopeArguments& arguments, const FilmFiles& film, bool has_one_eye, const Session& session,
                 RotoscopeFilmOptions& options) {
   if (arguments.shots.file.empty()) return;
   options.shots = shots_from(arguments.shots, film, options, {writes_marks(arguments), has_one_eye}, session);
   for (const FilmShot& shot : options.shots)
-    for (const DetailKey& detail : shot.details) options.made_from.push_back(detail.map);
+    for (const MapsKey& key : shot.maps)
+      for (const fs::path& file : {key.maps.detail, key.maps.disparity})
+        if (!file.empty()) options.made_from.push_back(file);
 }
 
 /// What the processes of mpirun share.

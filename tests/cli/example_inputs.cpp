@@ -152,6 +152,9 @@ using Maker = std::function<void(const fs::path&)>;
 const std::map<std::string, Maker>& makers() {
   const static Maker left = [](const fs::path& path) { write_image(path, photographs().left); };
   const static Maker right = [](const fs::path& path) { write_image(path, photographs().right); };
+  const static Maker side_by_side = [](const fs::path& path) {
+    write_image(path, joined(photographs().left, photographs().right, true));
+  };
   const static std::map<std::string, Maker> all{
       {"left.png", left},
       {"left.jpg", [](const fs::path& path) { write_image(path, detailed_photographs().left); }},
@@ -167,8 +170,8 @@ const std::map<std::string, Maker>& makers() {
       {"one.mpo", make_multi_picture},
       {"two.mpo", make_small_multi_picture},
       {"three.mpo", make_small_multi_picture},
-      {"photograph.jpg",
-       [](const fs::path& path) { write_image(path, joined(photographs().left, photographs().right, true)); }},
+      {"photograph.jpg", side_by_side},
+      {"key_sbs.png", side_by_side},
       {"photo.jpg", left},
       {"depth.png", make_depth},
       {"still", make_still},

@@ -65,8 +65,11 @@ RotoscopeOptions options_of_frame(const RotoscopeOptions& options, std::span<con
   const FilmShot& shot = *shot_of(shots, frame);
   RotoscopeOptions of_frame = options_of_shot(options, shot, at_s);
   of_frame.scene_begins = shot.begin == frame;
-  if (const auto key = std::ranges::find(shot.details, frame, &DetailKey::frame); key != shot.details.end())
-    of_frame.detail_map = key->map;
+  for (const MapsKey& key : shot.maps) {
+    if (key.frame != frame) continue;
+    if (!key.maps.detail.empty()) of_frame.maps.detail = key.maps.detail;
+    if (!key.maps.disparity.empty()) of_frame.maps.disparity = key.maps.disparity;
+  }
   return of_frame;
 }
 

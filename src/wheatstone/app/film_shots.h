@@ -39,10 +39,10 @@ struct MovingParameter {
   std::vector<ParameterKey> keys;  ///< at least one, in the order of their times
 };
 
-/// A picture that says how finely the places of a frame are painted (RotoscopeOptions::detail_map).
-struct DetailKey {
+/// What was made by hand for a frame.
+struct MapsKey {
   std::int64_t frame = 0;  ///< counted from 0
-  std::filesystem::path map;
+  FrameMaps maps;
 };
 
 /// A part of a film that is a scene, and how it is painted.
@@ -54,7 +54,7 @@ struct FilmShot {
   std::vector<MovingParameter> moving = {};  ///< each instead of the member above
   /// From `begin` on, in which the shot before it is painted, too, and fades out; 0: a cut. The first shot has none.
   std::int64_t dissolve_frames = 0;
-  std::vector<DetailKey> details = {};  ///< in the order of their frames; each holds until the next one
+  std::vector<MapsKey> maps = {};  ///< in the order of their frames
 };
 
 /// How a frame of a shot is painted that is shown at `at_s`; not its first one.

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <limits>
 
+#include "wheatstone/app/corrected_depth.h"
 #include "wheatstone/app/painted_film.h"
 #include "wheatstone/error.h"
 #include "wheatstone/video/film_time.h"
@@ -54,6 +55,22 @@ bool is_found(const ShotPlace& place) {
          std::ranges::all_of(place.keys, [](const Place& key) { return key.frame.has_value(); });
 }
 
+/// Disparities made by hand must have the size of an eye. This is known before hours of painting.
+void check_maps(std::span<const WrittenShot> shots, PictureSize eye) {
+  const auto check = [&](const FrameMaps& maps, const std::string& where) {
+    if (maps.disparity.empty()) return;
+    try {
+      read_frame_disparity(maps.disparity, eye);
+    } catch (const Error& error) {
+      throw Error(ErrorKind::bad_input, fmt::format("{}: {}", where, error.what()));
+    }
+  };
+  for (const WrittenShot& shot : shots) {
+    check(shot.maps, shot.where);
+    for (const WrittenKey& key : shot.keys) check(key.maps, key.where);
+  }
+}
+
 /// Goes through a film until all shots have begun, and ended where they say so, and all keys have been met.
 std::vector<ShotPlace> find_places(std::span<const WrittenShot> shots, StereoFilmReader film,
                                    const Progress& progress) {
@@ -65,7 +82,7 @@ std::vector<ShotPlace> find_places(std::span<const WrittenShot> shots, StereoFil
   if (shots.back().last) last = std::max(last, *shots.back().last + 1);
   for (StereoFrame frame; (frames < last || !std::ranges::all_of(places, is_found)) && film.read(frame);) {
     report(progress, "looking for the shots", share_of_film(film.facts(), frames));
-    ++frames;
+    if (++frames == 1) check_maps(shots, {frame.left.width(), frame.left.height()});
     for (std::size_t i = 0; i < shots.size(); ++i) {
       look(shots[i].begin, frames, frame, places[i]);
       for (std::size_t key = 0; key < shots[i].keys.size(); ++key)
@@ -161,21 +178,19 @@ std::vector<MovingParameter> moving_parameters(const WrittenShot& shot, const Sh
   return moving;
 }
 
-/// A detail map of a shot, at a frame of the whole film.
-struct PlacedDetail {
-  std::int64_t frame = 0;  ///< counted from 0
+/// What a shot has of maps, at a frame of the whole film, which has a time.
+struct PlacedMaps : MapsKey {
   std::int64_t pts = 0;
-  fs::path map;
 };
 
-std::vector<PlacedDetail> details_of(const WrittenShot& shot, const ShotPlace& place) {
-  std::vector<PlacedDetail> details;
-  const auto add = [&](const Place& at, const fs::path& map) {
-    if (!map.empty()) details.push_back({*at.frame - 1, at.pts, map});
+std::vector<PlacedMaps> maps_of(const WrittenShot& shot, const ShotPlace& place) {
+  std::vector<PlacedMaps> placed;
+  const auto add = [&](const Place& at, const FrameMaps& maps) {
+    if (!maps.empty()) placed.push_back({{*at.frame - 1, maps}, at.pts});
   };
-  add(place, shot.detail_map);
-  for (std::size_t i = 0; i < shot.keys.size(); ++i) add(place.keys[i], shot.keys[i].detail_map);
-  return details;
+  add(place, shot.maps);
+  for (std::size_t i = 0; i < shot.keys.size(); ++i) add(place.keys[i], shot.keys[i].maps);
+  return placed;
 }
 
 /// The shots as they lie in the whole film.
@@ -189,8 +204,7 @@ std::vector<FilmShot> shots_at(std::span<const WrittenShot> shots, std::span<con
     shot.begin = *places[i].frame - 1;
     shot.moving = moving_parameters(shots[i], places[i]);
     shot.dissolve_frames = *places[i].dissolved.frame - *places[i].frame;
-    for (const PlacedDetail& detail : details_of(shots[i], places[i]))
-      shot.details.push_back({detail.frame, detail.map});
+    for (const PlacedMaps& placed_maps : maps_of(shots[i], places[i])) shot.maps.push_back(placed_maps);
   }
   return placed;
 }
@@ -212,7 +226,7 @@ std::vector<FilmShot> place_shots(std::span<const WrittenShot> shots, const Film
   StereoFilmReader part = open_film(film, reading);
   std::size_t shot = 0;
   std::int64_t number = 0;
-  std::vector<PlacedDetail> details;  ///< of the shot, that are not reached yet
+  std::vector<PlacedMaps> maps;  ///< of the shot, that are not reached yet
   for (StereoFrame frame; part.read(frame); ++number) {
     report(progress, "looking for the shots", share_of_film(part.facts(), number));
     const std::size_t before = shot;
@@ -221,14 +235,14 @@ std::vector<FilmShot> place_shots(std::span<const WrittenShot> shots, const Film
       placed.push_back(in_whole[shot]);
       placed.back().begin = number;
       placed.back().dissolve_frames = 0;
-      placed.back().details.clear();
-      details = details_of(shots[shot], places[shot]);
+      placed.back().maps.clear();
+      maps = maps_of(shots[shot], places[shot]);
       // Where the map of a frame before the part lies now is not known.
-      if (number == 0) std::erase_if(details, [&](const PlacedDetail& detail) { return detail.pts < frame.pts; });
+      if (number == 0) std::erase_if(maps, [&](const PlacedMaps& one) { return one.pts < frame.pts; });
     }
-    while (!details.empty() && details.front().pts <= frame.pts) {
-      placed.back().details.push_back({number, details.front().map});
-      details.erase(details.begin());
+    while (!maps.empty() && maps.front().pts <= frame.pts) {
+      placed.back().maps.push_back({number, maps.front().maps});
+      maps.erase(maps.begin());
     }
     // Nothing is known of a shot that ends before the part begins.
     if (placed.size() > 1 && frame.pts < places[shot].dissolved.pts) ++placed.back().dissolve_frames;

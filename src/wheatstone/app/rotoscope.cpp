@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "wheatstone/app/corrected_depth.h"
 #include "wheatstone/app/detail_map.h"
 #include "wheatstone/app/half_size_internal.h"
 #include "wheatstone/error.h"
@@ -250,7 +251,10 @@ FrameAtWork look_at(const FrameTask& task, RotoscopeState& state, RotoscopeTimes
   FrameAtWork frame;
   {
     const Stopwatch watch(times.matching_s);
-    frame.geometry = task.known != nullptr ? task.known->geometry : find_geometry(task, state);
+    frame.geometry = task.known != nullptr ? task.known->geometry
+                                           : corrected(find_geometry(task, state), task.options.maps.disparity,
+                                                       {task.whole.left.width(), task.whole.left.height()},
+                                                       task.to_before, state.corrected_disparity);
   }
   report(task.progress, "central view", 0);
   const Stopwatch watch(times.central_s);
@@ -300,11 +304,11 @@ Image<std::uint8_t> detail_of(const FrameTask& task, const FrameAtWork& frame, b
                               const RotoscopeState& state) {
   const Image<float>& disparity = frame.centre.disparity;
   const int width = disparity.width(), height = disparity.height();
-  if (task.options.detail_map.empty()) {
+  if (task.options.maps.detail.empty()) {
     if (!carries || state.detail.empty()) return {};
     return brought_along(state.detail, state.flow_before.backward, width, height, even_detail);
   }
-  const Image<std::uint8_t> left = stretched_detail(read_detail_map(task.options.detail_map), width, height);
+  const Image<std::uint8_t> left = stretched_detail(read_detail_map(task.options.maps.detail), width, height);
   Image<std::uint8_t> detail(width, height);
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {

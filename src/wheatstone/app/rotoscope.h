@@ -25,6 +25,15 @@ namespace wheatstone {
 
 inline constexpr NumberRange zero_parallax_range{-65535, 65535};
 
+/// Files that were made by hand for a frame, and move with the film until there is another one, or a scene begins.
+/// Empty: there is none.
+struct FrameMaps {
+  std::filesystem::path detail;     ///< a picture as the detail map of a photograph, stretched over the left eye's
+  std::filesystem::path disparity;  ///< disparities of the left eye in pixels of the rectified frame (read_disparity);
+                                    ///< they hold where they differ from what is found by more than a pixel
+  bool empty() const { return detail.empty() && disparity.empty(); }
+};
+
 struct RotoscopeOptions {
   Style style;
   std::optional<Style> outside;  ///< of masks; none: the film's own pictures are shown there
@@ -59,10 +68,7 @@ struct RotoscopeOptions {
   /// The frames of the scene are drawn for eyes that move: all of them as for other eyes than the film's own, where
   /// nothing lies behind the paint, so that no frame looks otherwise.
   bool eyes_move = false;
-  /// How finely each place of this frame is painted, as the detail map of a photograph: a picture that is stretched
-  /// over the left eye's, and moves with the film until there is another one, or a scene begins. Empty: there is no
-  /// other.
-  std::filesystem::path detail_map;
+  FrameMaps maps;                    ///< of this frame
   std::optional<bool> scene_begins;  ///< with the frame; none: where a cut is found
   bool anew = false;                 ///< every frame as if a scene began: the naive method, to be measured against
 };
@@ -102,8 +108,9 @@ struct RotoscopeState {
   /// so.
   Image<Rgb8> central_before;
   Image<float> left_disparity_before, central_disparity_before;
-  FlowPair flow_before;        ///< the last flow of the scene; empty where there is none yet
-  Image<std::uint8_t> detail;  ///< View::detail of the central view; empty where there is none
+  Image<float> corrected_disparity;  ///< of the left eye, by hand; NaN where it is as found; empty where there is none
+  FlowPair flow_before;              ///< the last flow of the scene; empty where there is none yet
+  Image<std::uint8_t> detail;        ///< View::detail of the central view; empty where there is none
   std::optional<DisparityRange> range;
   SceneRectification rectification;
   SceneDepth depth;                              ///< where the frames are drawn for a display or a depth budget

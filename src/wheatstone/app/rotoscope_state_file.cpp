@@ -32,6 +32,7 @@ class Check {
       expect(fits(how->left) && fits(how->right) && fits(*how));
     }
     of_frame(state.left_disparity_before);
+    of_frame(state.corrected_disparity);
     of_frame(state.central_disparity_before);
     flow(state.flow_before.forward);
     flow(state.flow_before.backward);

@@ -254,7 +254,7 @@ TEST(Rotoscope, ADetailMapMovesWithTheFilm) {
     RotoscopeState state;
     std::vector<int> fine;  // that begin where the bright part of the map is now
     for (int i = 0; i < frames; ++i) {
-      options.detail_map = with_map && i == 0 ? folder / "detail.png" : fs::path();
+      options.maps.detail = with_map && i == 0 ? folder / "detail.png" : fs::path();
       // A picture that moves to the right; both eyes see the same.
       const Image<Rgb8> picture = moving_picture(width, height, 0, -step_px * i);
       const Image<float> flat(width, height), ahead(width, height, step_px), back(width, height, -step_px);

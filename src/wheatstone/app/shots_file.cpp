@@ -16,6 +16,7 @@
 #include "wheatstone/files/whole_file.h"
 #include "wheatstone/painting/paint.h"
 #include "wheatstone/painting/style_parameters.h"
+#include "wheatstone/pictures/disparity_file.h"
 #include "wheatstone/video/film_time.h"
 
 namespace wheatstone {
@@ -23,9 +24,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view detail_key = "detail-map";
-constexpr std::array<std::string_view, 8> keys_of_shots{"begin",        "last",          "dissolve", "style",
-                                                        "depth-budget", "zero-parallax", "key",      detail_key};
+constexpr std::string_view detail_key = "detail-map", disparity_key = "disparity";
+constexpr std::array<std::string_view, 9> keys_of_shots{
+    "begin", "last", "dissolve", "style", "depth-budget", "zero-parallax", "key", detail_key, disparity_key};
 
 /// The rows of an array of tables, each with its name, as "shots.toml: shot 2".
 template <class Read>
@@ -51,7 +52,7 @@ class ShotTable {
         .begin = written_frame("begin", "its first frame"),
         .painted = {.style = own.style, .depth_budget = own.depth_budget, .zero_parallax_px = own.zero_parallax_px},
         .where = at(table_)};
-    shot.detail_map = detail_map(own.style);
+    shot.maps = maps(own.style);
     if (const toml::node* last = table_.get("last")) shot.last = frame("last", *last);
     if (const toml::node* dissolve = table_.get("dissolve"))
       shot.dissolve = frame_or_time("dissolve", *dissolve, "a number of frames, or a time, as \"0.5\"");
@@ -70,19 +71,20 @@ class ShotTable {
   WrittenKey read_key(const RotoscopeOptions& of_shot, const toml::table& shot,
                       std::span<const UnusedKey> unused) const {
     WrittenKey key{.at = written_frame("at", "a frame of the shot"), .values = {}, .where = at(table_)};
-    key.detail_map = detail_map(of_shot.style);
+    check_use(unused, true);
+    key.maps = maps(of_shot.style);
     for (const auto& [name, node] : table_) {
-      if (name.str() == "at" || name.str() == detail_key) continue;
-      const MovableParameter* const parameter = movable(name.str(), node, unused);
+      if (name.str() == "at" || name.str() == detail_key || name.str() == disparity_key) continue;
+      const MovableParameter* const parameter = movable(name.str(), node);
       if (shot.contains(name.str()))
         throw Error(
             ErrorKind::bad_input,
             fmt::format("{}: '{}' is also set by the shot; leave it out there, or in its keys", at(node), name.str()));
       key.values.push_back({parameter->name, 0});
     }
-    if (key.values.empty() && key.detail_map.empty())
-      throw Error(ErrorKind::bad_input,
-                  fmt::format("{}: gives no number, expected {} or one of {}", at(table_), detail_key, movables()));
+    if (key.values.empty() && key.maps.empty())
+      throw Error(ErrorKind::bad_input, fmt::format("{}: gives no number, expected {}, {} or one of {}", at(table_),
+                                                    detail_key, disparity_key, movables()));
     const RotoscopeOptions then = painted(of_shot);
     for (WrittenKey::Value& value : key.values) value.value = find_movable_parameter(value.parameter)->get(then);
     if (const toml::node* budget = table_.get("depth-budget"); budget != nullptr && !then.depth_budget)
@@ -90,20 +92,29 @@ class ShotTable {
     return key;
   }
 
-  /// Empty where the table has none.
-  fs::path detail_map(const Style& style) const {
-    const toml::node* const node = table_.get(detail_key);
+  /// A file that the table names, which `check` throws for if it cannot be used; empty where the table has none.
+  template <class Check>
+  fs::path map_file(std::string_view key, Check check) const {
+    const toml::node* const node = table_.get(key);
     if (node == nullptr) return {};
     const auto* name = node->as_string();
-    if (name == nullptr) refuse(detail_key, *node, "the name of a picture");
+    if (name == nullptr) refuse(key, *node, "the name of a file");
     fs::path file = folder_ / name->get();
     try {
-      check_reads_detail(style);
-      read_detail_map(file);
+      check(file);
     } catch (const Error& error) {
       throw Error(ErrorKind::bad_input, fmt::format("{}: {}", at(*node), error.what()));
     }
     return file;
+  }
+
+  FrameMaps maps(const Style& style) const {
+    const auto check_detail = [&style](const fs::path& file) {
+      check_reads_detail(style);
+      read_detail_map(file);
+    };
+    return {map_file(detail_key, check_detail),
+            map_file(disparity_key, [](const fs::path& file) { read_disparity(file); })};
   }
 
   /// `all` with what the table sets.
@@ -120,8 +131,7 @@ class ShotTable {
     return fmt::format("{}", fmt::join(names, ", "));
   }
 
-  const MovableParameter* movable(std::string_view name, const toml::node& node,
-                                  std::span<const UnusedKey> unused) const {
+  const MovableParameter* movable(std::string_view name, const toml::node& node) const {
     const bool is_known =
         find_parameter(name) != nullptr || std::ranges::find(keys_of_shots, name) != keys_of_shots.end();
     const MovableParameter* const parameter = find_movable_parameter(name);
@@ -130,8 +140,6 @@ class ShotTable {
                                                     is_known ? fmt::format("'{}' does not move", name)
                                                              : fmt::format("unknown key '{}'", name),
                                                     movables()));
-    if (const auto no_use = std::ranges::find(unused, name, &UnusedKey::key); no_use != unused.end())
-      throw Error(ErrorKind::bad_input, fmt::format("{}: '{}' has no effect {}", at(node), name, no_use->why));
     return parameter;
   }
 
@@ -141,13 +149,21 @@ class ShotTable {
     throw Error(ErrorKind::bad_input, fmt::format("{}: '{}' is not {}", at(node), key, expected));
   }
 
-  void check_keys(std::span<const UnusedKey> unused) const {
+  /// Throws for a key of the table that has no effect; in a [[shot.key]], what it gives moves.
+  void check_use(std::span<const UnusedKey> unused, bool is_moved) const {
     for (const auto& [name, node] : table_) {
       const std::string_view key = name.str();
-      const auto no_use =
-          std::ranges::find_if(unused, [&](const UnusedKey& one) { return one.key == key && !one.if_moved; });
+      const auto no_use = std::ranges::find_if(
+          unused, [&](const UnusedKey& one) { return one.key == key && (is_moved || !one.if_moved); });
       if (no_use != unused.end())
         throw Error(ErrorKind::bad_input, fmt::format("{}: '{}' has no effect {}", at(node), key, no_use->why));
+    }
+  }
+
+  void check_keys(std::span<const UnusedKey> unused) const {
+    check_use(unused, false);
+    for (const auto& [name, node] : table_) {
+      const std::string_view key = name.str();
       if (std::ranges::find(keys_of_shots, key) != keys_of_shots.end() || find_parameter(key) != nullptr) continue;
       std::vector<std::string_view> known(keys_of_shots.begin(), keys_of_shots.end());
       for (const StyleParameter& parameter : style_parameters()) known.push_back(parameter.name);

@@ -41,17 +41,17 @@ struct WrittenKey {
   };
   WrittenFrame at;
   std::vector<Value> values;
-  std::filesystem::path detail_map = {};  ///< from there on; empty: as before
-  std::string where;                      ///< for messages: "shots.toml: shot 2, key 1, line 14"
+  FrameMaps maps = {};  ///< from there on; empty: as before
+  std::string where;    ///< for messages: "shots.toml: shot 2, key 1, line 14"
 };
 
 /// A shot as a shots file has it.
 struct WrittenShot {
   WrittenFrame begin;
-  std::optional<std::int64_t> last;       ///< last frame, to be checked
-  std::optional<WrittenFrame> dissolve;   ///< how many frames, or seconds, the shot before fades out over
-  FilmShot painted;                       ///< its `begin` and what moves are not known yet
-  std::filesystem::path detail_map = {};  ///< from the first frame on; empty: none
+  std::optional<std::int64_t> last;      ///< last frame, to be checked
+  std::optional<WrittenFrame> dissolve;  ///< how many frames, or seconds, the shot before fades out over
+  FilmShot painted;                      ///< its `begin` and what moves are not known yet
+  FrameMaps maps = {};                   ///< from the first frame on
   std::vector<WrittenKey> keys = {};
   std::string where;  ///< for messages: "shots.toml: shot 2, line 14"
 };
@@ -63,7 +63,7 @@ struct UnusedKey {
 };
 
 /// Reads a shots file. What a shot does not set is as `all` has it; a shot with a style of its own takes the seed alone
-/// from the style of all. Style files and detail maps are named as seen from the folder of `file`, which also stands in
+/// from the style of all. Style files and maps are named as seen from the folder of `file`, which also stands in
 /// messages. Throws Error{bad_input} that names file, shot and line or key: not TOML, unknown keys, values that do not
 /// fit, keys that have no effect on the shot's marks or in this run, parameters that cannot move, or are set by a shot
 /// and by its keys.

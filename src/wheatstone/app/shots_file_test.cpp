@@ -91,24 +91,27 @@ begin = 91
   EXPECT_EQ(second.where, "s.toml: shot 1, key 2, line 8");
 }
 
-TEST(ShotsFile, HasDetailMapsAsSeenFromItsFolder) {
+TEST(ShotsFile, HasMapsAsSeenFromItsFolder) {
   const TemporaryFolder folder;
   write_image(folder / "d.png", Image<std::uint8_t>(8, 4, 200));
-  const std::string shots = "[[shot]]\nbegin = 1\nstyle = \"oil\"\ndetail-map = \"d.png\"\n";
+  const std::string shots = "[[shot]]\nbegin = 1\nstyle = \"oil\"\ndetail-map = \"d.png\"\ndisparity = \"d.png\"\n";
   put_bytes(folder / "s.toml", shots + "[[shot.key]]\nat = 5\ndetail-map = \"d.png\"\n");
   const std::vector<WrittenShot> read = read_shots(folder / "s.toml", {});
-  EXPECT_EQ(read.at(0).detail_map, folder / "d.png");
-  EXPECT_EQ(read.at(0).keys.at(0).detail_map, folder / "d.png");
+  EXPECT_EQ(read.at(0).maps.detail, folder / "d.png");
+  EXPECT_EQ(read.at(0).maps.disparity, folder / "d.png");
+  EXPECT_EQ(read.at(0).keys.at(0).maps.detail, folder / "d.png");
+  EXPECT_TRUE(read.at(0).keys.at(0).maps.disparity.empty());
   EXPECT_TRUE(read.at(0).keys.at(0).values.empty());
   const auto refused = [&](const std::string& toml, const std::string& why) {
     put_bytes(folder / "w.toml", toml);
     expect_error(ErrorKind::bad_input, why, [&] { read_shots(folder / "w.toml", {}); });
   };
   refused("[[shot]]\nbegin = 1\nstyle = \"oil\"\ndetail-map = \"none.png\"\n", "w.toml: shot 1, line 4: ");
-  refused("[[shot]]\nbegin = 1\nstyle = \"oil\"\ndetail-map = 5\n", "'detail-map' is not the name of a picture");
+  refused("[[shot]]\nbegin = 1\nstyle = \"oil\"\ndetail-map = 5\n", "'detail-map' is not the name of a file");
   refused("[[shot]]\nbegin = 1\nstyle = \"mosaic\"\ndetail-map = \"d.png\"\n",
           "shot 1, line 4: style mosaic: takes no detail map");
-  refused(shots + "[[shot.key]]\nat = 5\n", "gives no number, expected detail-map or one of");
+  refused("[[shot]]\nbegin = 1\n[[shot.key]]\nat = 3\ndisparity = \"none.pfm\"\n", "w.toml: shot 1, key 1, line 5: ");
+  refused(shots + "[[shot.key]]\nat = 5\n", "gives no number, expected detail-map, disparity or one of");
 }
 
 TEST(ShotsFile, ThatWasListedChangesNothing) {
@@ -167,7 +170,8 @@ TEST(ShotsFile, ThatIsWrongIsRefusedWithItsPlace) {
       {"[[shot]]\nbegin = 1\nkey = [2]\n", "s.toml: shot 1, key 1: is no table, expected [[shot.key]]"},
       {"[[shot]]\nbegin = 1\n[[shot.key]]\ndry = 1\n", "s.toml: shot 1, key 1, line 3: has no 'at', expected a frame"},
       {first,
-       "s.toml: shot 1, key 1, line 3: gives no number, expected detail-map or one of depth-budget, zero-parallax, "
+       "s.toml: shot 1, key 1, line 3: gives no number, expected detail-map, disparity or one of depth-budget, "
+       "zero-parallax, "
        "opacity"},
       {first + "radii = [4]\n", "s.toml: shot 1, key 1, line 5: 'radii' does not move, expected at and one of depth-"},
       {first + "style = \"oil\"\n", "s.toml: shot 1, key 1, line 5: 'style' does not move"},
@@ -240,7 +244,7 @@ TEST_F(PlacedShots, HaveTheirKeysAtTheTimesOfFrames) {
   }
 }
 
-TEST_F(PlacedShots, HaveTheirDetailMapsAtFramesThatAreRead) {
+TEST_F(PlacedShots, HaveTheirMapsAtFramesThatAreRead) {
   const TemporaryFolder folder;
   write_image(folder / "d.png", Image<std::uint8_t>(8, 4, 200));
   const std::string map = fmt::format("detail-map = \"{}\"\n", (folder / "d.png").string());
@@ -249,7 +253,7 @@ TEST_F(PlacedShots, HaveTheirDetailMapsAtFramesThatAreRead) {
   const auto frames = [&](const FilmReaderOptions& reading) {
     std::vector<std::int64_t> found;
     const std::vector<FilmShot> shots = placed(toml, reading);
-    for (const DetailKey& key : shots.back().details) found.push_back(key.frame);
+    for (const MapsKey& key : shots.back().maps) found.push_back(key.frame);
     return found;
   };
   EXPECT_THAT(frames({}), ElementsAre(5, 8, 16));
