@@ -110,8 +110,11 @@ Painting plan_still(const StereoPairView& photographs, const StereoGeometryView&
   if (apart && !photographs.right.empty()) return plan_eyes_apart(photographs, geometry, style, progress);
   std::vector<View> scene =
       known.empty() ? make_still_scene(photographs, geometry, wanted) : make_known_scene(photographs, geometry, known);
-  if (!detail.empty())
+  if (same_size(detail, photographs.left)) {
+    scene.front().detail = detail;
+  } else if (!detail.empty()) {
     scene.front().detail = stretched_detail(detail, photographs.left.width(), photographs.left.height());
+  }
   PaintingMemory nothing_before;
   return plan_frame({.views = scene}, style, {.goes_on = false}, nothing_before, progress, fits).painting;
 }

@@ -71,25 +71,11 @@ int place_of_half(const LayerPlan& plan, int half) {
   return static_cast<int>(static_cast<float>(half) * cell_px(plan) / 2);
 }
 
-/// The errors of a row's pixels from `left` on, as FitTile has them.
-void errors_of_row(const LayerPlan& plan, int left, int y, std::span<float> errors) {
-  const auto row = [&](const auto& plane) { return plane.row(y).subspan(static_cast<std::size_t>(left)); };
-  const Canvas& canvas = plan.canvas;
-  const auto red = row(plan.reference->red), green = row(plan.reference->green), blue = row(plan.reference->blue);
-  const auto painted_red = row(canvas.red), painted_green = row(canvas.green), painted_blue = row(canvas.blue);
-  const auto covered = row(canvas.coverage), weights = row(plan.weights);
-  for (std::size_t i = 0; i < errors.size(); ++i) {
-    // The planes are linear in sRGB.
-    errors[i] = error_of(FitColour::of(red[i] - painted_red[i], green[i] - painted_green[i], blue[i] - painted_blue[i]),
-                         covered[i] < 0.5f, weights[i]);
-  }
-}
-
 /// Whether a stroke may gain in some cell of a block. It saves a closer look at most blocks of the finer layers of a
 /// large picture.
-bool may_gain_in_block(const LayerPlan& plan, int left, int top, int size) {
+bool may_gain_in_block(const LayerPlan& plan, const PaintedPicture& canvas, int left, int top, int size) {
   const int reach = size + 2 * static_cast<int>(cell_px(plan));
-  const int right = std::min(left + reach, plan.canvas.width), bottom = std::min(top + reach, plan.canvas.height);
+  const int right = std::min(left + reach, canvas.width()), bottom = std::min(top + reach, canvas.height());
   const auto half_before = [&](int place) {
     return std::max(static_cast<int>(2 * static_cast<float>(place) / cell_px(plan)) - 1, 0);
   };
@@ -102,7 +88,7 @@ bool may_gain_in_block(const LayerPlan& plan, int left, int top, int size) {
   for (int row = first_row; place_of_half(plan, row) < bottom; ++row) {
     std::ranges::fill(sums, 0.f);
     for (int y = place_of_half(plan, row); y < std::min(place_of_half(plan, row + 1), bottom); ++y) {
-      errors_of_row(plan, x0, y, errors);
+      errors_of_row(plan, canvas, x0, y, errors);
       for (std::size_t c = 0; c + 1 < columns.size(); ++c)
         for (std::size_t x = columns[c]; x < columns[c + 1]; ++x) sums[c] += errors[x];
     }
@@ -221,12 +207,6 @@ void add_stroke(const PaintedStroke& painted, const LayerPlan& plan, int left, i
   stroke.views = all_views;
   stroke.number = painted.number;
   layer.strokes.push_back(stroke);
-}
-
-PaintedPicture painted_picture(const Canvas& canvas) {
-  PaintedPicture picture(canvas.width, canvas.height);
-  tbb::parallel_for(0, canvas.height, [&](int y) { take_painted_row(canvas, y, picture.row(y)); });
-  return picture;
 }
 
 /// Whether a stroke may begin in a block.
@@ -393,25 +373,33 @@ void take_painted_row(const Canvas& canvas, int y, std::span<PaintedPixel> to) {
   for (std::size_t x = 0; x < to.size(); ++x) to[x] = PaintedPixel::of(red[x], green[x], blue[x], covered[x]);
 }
 
-Layer fit_layer(const LayerPlan& plan) {
+PaintedPicture painted_picture(const Canvas& canvas) {
+  PaintedPicture picture(canvas.width, canvas.height);
+  tbb::parallel_for(0, canvas.height, [&](int y) { take_painted_row(canvas, y, picture.row(y)); });
+  return picture;
+}
+
+Layer fit_layer(const LayerPlan& plan, PaintedPicture own_canvas) {
   const std::vector<Block> blocks = blocks_of(plan);
   LayerFit fit;  // what is left half done by an error is not kept
   std::optional<Refit> refit;
   if (plan.fit != nullptr) {
     fit = std::exchange(*plan.fit, {});
     refit.emplace(plan, blocks.size(), fit);
+  } else if (own_canvas.empty()) {
+    own_canvas = painted_picture(plan.canvas);
   }
+  const PaintedPicture& begun = refit ? refit->begun() : own_canvas;
   std::vector<std::uint8_t> worth(blocks.size());
   tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t i) {
     const auto& [left, top, size, wave, area, index] = blocks[i];
     worth[i] = refit && !refit->differs(area)
                    ? refit->was_worth(index)
-                   : has_seeds(plan, left, top, size) && may_gain_in_block(plan, left, top, size);
+                   : has_seeds(plan, left, top, size) && may_gain_in_block(plan, begun, left, top, size);
   });
   Layer layer{plan.radius_px, {}, {}};
   const bool any = std::ranges::any_of(worth, [](std::uint8_t block) { return block != 0; });
   if (!any && !refit) return layer;
-  PaintedPicture own_canvas = refit ? PaintedPicture() : painted_picture(plan.canvas);
   PaintedPicture& canvas = refit ? refit->canvas() : own_canvas;
   // Blocks of one wave do not touch the same pixels. A stroke depends on the picture within four blocks of this layer,
   // and as much for each coarser one.

@@ -195,21 +195,23 @@ FitTile::FitTile(const LayerPlan& plan, PaintedPicture& canvas, int left_, int t
       plan_(plan),
       canvas_(canvas),
       error_(at(0, height)) {
-  for (int y = 0; y < height; ++y) {
-    const auto row = [&](const auto& plane) { return &plane(left, top + y); };
-    const auto *red = row(plan.reference->red), *green = row(plan.reference->green), *blue = row(plan.reference->blue);
-    const PaintedPixel* const paint = row(std::as_const(canvas));
-    const float* const weights = row(plan.weights);
-    float* const to = error_.data() + at(0, y);
-    // A loop that compilers turn into vectors.
-    for (int x = 0; x < width; ++x) {
-      const auto left_of = [](int level, std::uint16_t painted) {
-        return static_cast<float>(level) - static_cast<float>(painted) / PaintedPixel::steps;
-      };
-      to[x] = error_of(FitColour::of(left_of(red[x], paint[x].red), left_of(green[x], paint[x].green),
-                                     left_of(blue[x], paint[x].blue)),
-                       paint[x].is_bare(), weights[x]);
-    }
+  for (int y = 0; y < height; ++y)
+    errors_of_row(plan, canvas, left, top + y, std::span(error_).subspan(at(0, y), static_cast<std::size_t>(width)));
+}
+
+void errors_of_row(const LayerPlan& plan, const PaintedPicture& canvas, int left, int y, std::span<float> errors) {
+  const auto row = [&](const auto& plane) { return &plane(left, y); };
+  const auto *red = row(plan.reference->red), *green = row(plan.reference->green), *blue = row(plan.reference->blue);
+  const PaintedPixel* const paint = row(canvas);
+  const float* const weights = row(plan.weights);
+  // A loop that compilers turn into vectors.
+  for (std::size_t x = 0; x < errors.size(); ++x) {
+    const auto left_of = [](int level, std::uint16_t painted) {
+      return static_cast<float>(level) - static_cast<float>(painted) / PaintedPixel::steps;
+    };
+    errors[x] = error_of(FitColour::of(left_of(red[x], paint[x].red), left_of(green[x], paint[x].green),
+                                       left_of(blue[x], paint[x].blue)),
+                         paint[x].is_bare(), weights[x]);
   }
 }
 

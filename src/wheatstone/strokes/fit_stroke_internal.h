@@ -77,6 +77,10 @@ struct PaintedPixel {
 };
 using PaintedPicture = Image<PaintedPixel>;
 void take_painted_row(const Canvas& canvas, int y, std::span<PaintedPixel> to);
+PaintedPicture painted_picture(const Canvas& canvas);
+
+/// The weighted errors of a row's pixels from `left` on, in squared steps; larger where nothing is painted.
+void errors_of_row(const LayerPlan& plan, const PaintedPicture& canvas, int left, int y, std::span<float> errors);
 
 /// A part of a layer's pictures, around a block of cells whose strokes are planned one after the other. `left` and
 /// `top` are counted from the picture's first pixel, everything else from the tile's. Borrows what it is made from.
@@ -139,7 +143,7 @@ void paint_stroke(const FittedStroke& stroke, const LayerPlan& plan, FitTile& ti
 /// passes; in each, the pixel that is most wrong begins a stroke. The picture is divided into blocks, which are planned
 /// in four waves, so that the result does not depend on threads. In drawing order; a stroke's number is that of its
 /// cell, from 1 to fitted_places, whatever other strokes there are.
-Layer fit_layer(const LayerPlan& plan);
+Layer fit_layer(const LayerPlan& plan, PaintedPicture canvas = {});
 std::uint32_t fitted_places(const LayerPlan& plan);
 
 }  // namespace wheatstone

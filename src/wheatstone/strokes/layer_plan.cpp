@@ -70,10 +70,7 @@ ScaledStyle::ScaledStyle(const Style& style, int width, int scale)
 }
 
 ViewOnCanvas::ViewOnCanvas(View view_, const Style& style, int reference_width, Canvas begun)
-    : view(std::move(view_)),
-      scaled(style, reference_width, view.frame.scale),
-      canvas(std::move(begun)),
-      disparity_steps(style.depth_test ? disparity_in_steps(view.disparity) : Image<std::int16_t>()) {}
+    : view(std::move(view_)), scaled(style, reference_width, view.frame.scale), canvas(std::move(begun)) {}
 
 ViewOnCanvas::ViewOnCanvas(View view_, const Style& style, int reference_width)
     : ViewOnCanvas(view_, style, reference_width, canvas_of(view_, style)) {}
@@ -98,15 +95,15 @@ LayerPlan make_layer_plan(const ViewOnCanvas& at, const Style& style, int layer,
   tbb::parallel_invoke([&] { plan.reference = reference_for(at.view.colour, radius, style, fit); },
                        [&] {
                          if (!style.depth_test) return;
-                         plan.depth_edges = near_depth_edge(at.disparity_steps, radius, threshold);
+                         const Image<std::int16_t> steps = disparity_in_steps(at.view.disparity);
+                         plan.depth_edges = near_depth_edge(steps, radius, threshold);
                          if (!finest) return;
-                         plan.edge_distance =
-                             distance_to_depth_edge(at.disparity_steps, threshold, radius + known_edge_distance_px);
+                         plan.edge_distance = distance_to_depth_edge(steps, threshold, radius + known_edge_distance_px);
                          // Strokes begin where two surfaces' colours mix only if there is no other place, because the
                          // surfaces separate in other views. A part of a view needs no such mask: no other view sees
                          // it.
                          if (at.view.wanted.empty())
-                           plan.mixed_colours = behind_depth_edge(at.disparity_steps, radius / 2, threshold);
+                           plan.mixed_colours = behind_depth_edge(steps, radius / 2, threshold);
                        });
   if (style.marks == Marks::fitted_strokes)
     plan.weights = fit == nullptr ? difference_weights(plan) : weights_again(plan, *fit);

@@ -38,8 +38,7 @@ struct ViewOnCanvas {
   View view;
   ScaledStyle scaled;
   Canvas canvas;
-  Image<std::int16_t> disparity_steps;  ///< as disparity_in_steps; empty where the style wants no depth test
-  ViewsBeside beside;                   ///< from which the strokes will be seen
+  ViewsBeside beside;  ///< from which the strokes will be seen
 };
 
 /// Distances to depth edges are known up to this much more than the brush's radius.

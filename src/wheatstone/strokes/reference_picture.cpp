@@ -53,7 +53,10 @@ ReferencePicture make_reference(ImageView<const Rgb8> photograph, float radius_p
   if (style.orientation == Orientation::smooth || style.marks == Marks::fitted_strokes) {
     constexpr float finest_detail_px = 3;
     reference.orientation = OrientationField(reference.luminance, std::max(radius_px / 2, finest_detail_px));
-    if (style.marks == Marks::fitted_strokes) reference.orientation.round();
+    if (style.marks == Marks::fitted_strokes) {
+      reference.orientation.round();
+      reference.luminance = {};  // only traced strokes turn by it
+    }
   }
   return reference;
 }

@@ -106,7 +106,9 @@ class Refit {
   /// Compares with the last time, and takes over what is there now. Everything differs where nothing is known.
   Refit(const LayerPlan& plan, std::size_t blocks, LayerFit& before);
 
-  /// The canvas on which the layer is planned: as the coarser layers left it, at the pixels that differ.
+  /// The canvas as the coarser layers left it.
+  const PaintedPicture& begun() const { return before_.canvases.front(); }
+  /// The canvas on which the layer is planned: as it was begun, at the pixels that differ.
   PaintedPicture& canvas() { return before_.canvas; }
 
   bool differs(const PixelArea& area) const;

@@ -25,19 +25,28 @@ namespace {
 /// unfinished results.
 class ViewsPlan {
  public:
-  ViewsPlan(const Progress& progress, std::size_t views, std::size_t layers)
-      : progress_(progress), thrown_(views), steps_(views * (layers + 1)) {}
+  ViewsPlan(const Progress& progress, ImageView<const Rgb8> reference, std::size_t views, std::size_t layers)
+      : progress_(progress),
+        thrown_(views),
+        one_by_one_(static_cast<double>(reference.width()) * reference.height() > large_px),
+        steps_(views * (layers + 1)) {}
 
-  /// Calls `plan(view)` for all views.
+  /// Calls `plan(view)` for all views. Those of large pictures would take too much memory at once.
   template <class Plan>
   void run(Plan plan) {
-    tbb::parallel_for(std::size_t{0}, thrown_.size(), [&](std::size_t view) {
+    const auto plan_one = [&](std::size_t view) {
       try {
         plan(view);
       } catch (...) {
         thrown_[view] = std::current_exception();
       }
-    });
+      return !thrown_[view];
+    };
+    if (one_by_one_) {
+      for (std::size_t view = 0; view < thrown_.size() && plan_one(view);) ++view;
+    } else {
+      tbb::parallel_for(std::size_t{0}, thrown_.size(), plan_one);
+    }
     for (const std::exception_ptr& thrown : thrown_)
       if (thrown) std::rethrow_exception(thrown);
   }
@@ -49,8 +58,11 @@ class ViewsPlan {
   }
 
  private:
+  static constexpr double large_px = 8e6;
+
   const Progress& progress_;
   std::vector<std::exception_ptr> thrown_;
+  bool one_by_one_;
   std::size_t steps_;
   std::size_t done_ = 0;
   std::mutex reporting_;
@@ -211,7 +223,7 @@ CarriedPainting plan_strokes(const FilmFrame& frame, const Style& style, const C
   std::vector<ViewFit*> kept;
   if (fits != nullptr && style.marks == Marks::fitted_strokes) kept = fits_of(frame.views, layers, *fits);
   std::vector<Layer> repairs(frame.views.size());
-  ViewsPlan plan(progress, frame.views.size(), layers);
+  ViewsPlan plan(progress, frame.views.front().colour, frame.views.size(), layers);
   plan.run([&](std::size_t view) {
     plan.report_step();
     const View& own = frame.views[view];

@@ -97,7 +97,8 @@ void ViewPainter::plan(int layer, const CarryOptions& options, TrackedLayer& tra
     seeds = where_strokes_are_missing(plan, before, tracked);
     plan.seeds = seeds;
   }
-  Layer begun = plan_layer(plan);
+  Image<std::uint8_t> bare = finest ? bare_pixels(at_->canvas, at_->view.wanted) : Image<std::uint8_t>();
+  Layer begun = finest && !compares && fit == nullptr ? plan_last(plan) : plan_layer(plan);
   if (fit != nullptr) fit->weights = std::move(plan.weights);
   numbers_.give(fitted_places(plan), begun);
   put_in_order(begun, style_);
@@ -121,8 +122,17 @@ void ViewPainter::plan(int layer, const CarryOptions& options, TrackedLayer& tra
     rasterise(begun, at_->view.position, hiding(), at_->canvas, cover_of_brush(layer));
   }
   if (!finest) return;
-  cover_bare(plan, begun, carried, before, options, tracked);
+  cover_bare(std::move(bare), plan, begun, carried, before, options, tracked);
   misplaced_ = std::move(misplaced);
+}
+
+/// Plans a layer after which nothing needs the canvas: that of a large picture takes much memory.
+Layer ViewPainter::plan_last(const LayerPlan& plan) {
+  if (style_.marks != Marks::fitted_strokes) return plan_layer(plan);
+  PaintedPicture canvas = painted_picture(at_->canvas);
+  Canvas& spent = at_->canvas;
+  spent.red = spent.green = spent.blue = spent.coverage = {};
+  return fit_layer(plan, std::move(canvas));
 }
 
 Layer ViewPainter::repairs() {
@@ -177,11 +187,11 @@ void ViewPainter::draw_again(const Layer& strokes, int layer, std::span<LayerFit
   owner_of_canvas_ = &drawing.painted;
 }
 
-/// Covers the pixels that the finest strokes leave bare; nothing is planned over the pixels that they paint.
-void ViewPainter::cover_bare(const LayerPlan& plan, const Layer& begun, std::size_t carried, const Image<float>& before,
-                             const CarryOptions& options, TrackedLayer& tracked) {
+/// Covers the pixels that the coarser layers and the finest strokes leave bare; nothing is planned over those that they
+/// paint. `bare` are those that the coarser layers leave.
+void ViewPainter::cover_bare(Image<std::uint8_t> bare, const LayerPlan& plan, const Layer& begun, std::size_t carried,
+                             const Image<float>& before, const CarryOptions& options, TrackedLayer& tracked) {
   const View& view = at_->view;
-  Image<std::uint8_t> bare = bare_pixels(at_->canvas, view.wanted);
   const Layer near = strokes_near_bare(begun, bare);
   bare = left_bare(near, view.position, hiding(), std::move(bare), cover_of_brush(plan.layer));
   Layer dots = repair({.target = {.picture = view.colour,

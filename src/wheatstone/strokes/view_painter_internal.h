@@ -41,8 +41,9 @@ class ViewPainter {
   void go_to_size(int factor, LayerFit* fit);
   void give_back_canvas();
   void draw_again(const Layer& strokes, int layer, std::span<LayerFit> fits);
-  void cover_bare(const LayerPlan& plan, const Layer& begun, std::size_t carried, const Image<float>& before,
-                  const CarryOptions& options, TrackedLayer& tracked);
+  Layer plan_last(const LayerPlan& plan);
+  void cover_bare(Image<std::uint8_t> bare, const LayerPlan& plan, const Layer& begun, std::size_t carried,
+                  const Image<float>& before, const CarryOptions& options, TrackedLayer& tracked);
   void end_wrong_colours(const LayerPlan& plan, const Image<float>& before, const CarryOptions& options,
                          TrackedLayer& tracked) const;
   void draw_on_canvas(Layer strokes, int layer);
