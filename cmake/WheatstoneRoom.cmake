@@ -40,7 +40,12 @@ set(wheatstone_rooms_of_long_loops curves synthetic)
 # work at the end. What takes long by nature (random runs, real photographs and films of full size) is in suites whose
 # names end in "Long": `make test` leaves them out, `make test-long` runs them and nothing else.
 set(wheatstone_longest_tests cli app examples matching)
-set(WHEATSTONE_TESTS_LEFT_OUT "" CACHE STRING "Suites of tests that are not run, as GoogleTest's filter names them")
+set(WHEATSTONE_TESTS_LEFT_OUT "" CACHE FILEPATH "File of the tests that are not run: a pattern of GoogleTest a line")
+set(wheatstone_tests_left_out "")
+if(WHEATSTONE_TESTS_LEFT_OUT)
+  file(STRINGS ${WHEATSTONE_TESTS_LEFT_OUT} wheatstone_tests_left_out REGEX "^[^#]")
+  list(JOIN wheatstone_tests_left_out ":" wheatstone_tests_left_out)
+endif()
 function(wheatstone_add_gtest name target)
   set(shards 1)
   if(name IN_LIST wheatstone_longest_tests)
@@ -53,7 +58,7 @@ function(wheatstone_add_gtest name target)
     math(EXPR index "${shard} - 1")
     add_test(NAME ${name}.${shard} COMMAND ${target})
     set_tests_properties(${name}.${shard} PROPERTIES COST ${shards} TIMEOUT 1800
-      ENVIRONMENT "GTEST_FILTER=-*Long.*:${WHEATSTONE_TESTS_LEFT_OUT};GTEST_TOTAL_SHARDS=${shards};GTEST_SHARD_INDEX=${index};GTEST_BRIEF=1")
+      ENVIRONMENT "GTEST_FILTER=-*Long.*:${wheatstone_tests_left_out};GTEST_TOTAL_SHARDS=${shards};GTEST_SHARD_INDEX=${index};GTEST_BRIEF=1")
   endforeach()
   add_test(NAME ${name}.long COMMAND ${target})
   set_tests_properties(${name}.long PROPERTIES
