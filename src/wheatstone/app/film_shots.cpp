@@ -92,4 +92,10 @@ bool begins_shot(std::span<const FilmShot> shots, std::int64_t frame) {
   return std::ranges::binary_search(shots, frame, {}, &FilmShot::begin);
 }
 
+bool has_maps(std::span<const FilmShot> shots, std::int64_t frame) {
+  return std::ranges::any_of(shots, [frame](const FilmShot& shot) {
+    return std::ranges::find(shot.maps, frame, &MapsKey::frame) != shot.maps.end();
+  });
+}
+
 }  // namespace wheatstone

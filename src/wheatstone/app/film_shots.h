@@ -80,4 +80,7 @@ std::vector<std::int64_t> cuts_of(std::span<const FilmShot> shots);
 /// Whether a shot begins with the frame.
 bool begins_shot(std::span<const FilmShot> shots, std::int64_t frame);
 
+/// Whether something was made by hand for the frame.
+bool has_maps(std::span<const FilmShot> shots, std::int64_t frame);
+
 }  // namespace wheatstone

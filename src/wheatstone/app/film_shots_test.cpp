@@ -14,6 +14,7 @@
 #include "wheatstone/app/film_plan.h"
 #include "wheatstone/app/paint_film_frame_internal.h"
 #include "wheatstone/app/rotoscope_film.h"
+#include "wheatstone/pictures/write_image.h"
 
 namespace wheatstone::film_shots_test {
 
@@ -219,6 +220,22 @@ TEST_F(FilmOfShots, OnTwosShowsEachPaintingTwiceAndOneAtOnceWhereAShotBegins) {
   paint(file("late.mkv"), options);
   EXPECT_TRUE(bytes_of(file("late_5.wst")) == bytes_of(file("half_1.wst")));
   EXPECT_TRUE(bytes_of(file("late_7.wst")) == bytes_of(file("half_2.wst")));
+}
+
+TEST_F(FilmOfShots, OnTwosPaintsAFrameAnewForWhichThereIsAMap) {
+  RotoscopeFilmOptions options = usual();
+  options.on_twos = true;
+  options.shots.resize(1);
+  write_image(file("fine.png"), Image<std::uint8_t>(4, 4, 255));
+  options.shots[0].style = style_by_name("oil");
+  options.shots[0].maps = {{3, {file("fine.png"), {}}}};
+  options.marks = file("mapped_%d.wst");
+  paint(file("mapped.mkv"), options);
+  for (const auto& [frame, same] : {std::pair{1, true}, {3, false}, {5, true}})
+    EXPECT_EQ(
+        bytes_of(file(fmt::format("mapped_{}.wst", frame + 1))) == bytes_of(file(fmt::format("mapped_{}.wst", frame))),
+        same)
+        << frame;
 }
 
 TEST_F(FilmOfShots, OnTwosHasTheSameBytesByRanksAndByAPlanAndWhenItWasStopped) {

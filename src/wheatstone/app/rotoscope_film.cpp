@@ -33,7 +33,7 @@ double processor_seconds() { return static_cast<double>(std::clock()) / CLOCKS_P
 /// Whether a frame shows the painting of the one before. Pairs are those of the whole film, so that none of them lies
 /// across a checkpoint or across what two ranks paint.
 bool is_repeated(const RotoscopeFilmOptions& options, std::int64_t frame) {
-  return options.on_twos && frame % 2 == 1 && !begins_shot(options.shots, frame);
+  return options.on_twos && frame % 2 == 1 && !begins_shot(options.shots, frame) && !has_maps(options.shots, frame);
 }
 
 void check_twos(const RotoscopeFilmOptions& options) {
