@@ -36,6 +36,17 @@ std::span<const FilmShot>::iterator shot_of(std::span<const FilmShot> shots, std
   return std::prev(std::ranges::upper_bound(shots, frame, {}, &FilmShot::begin));
 }
 
+/// What was made by hand for a frame of the shot. In a part of a film, several keys may have come to lie on it.
+FrameMaps maps_at(const FilmShot& shot, std::int64_t frame) {
+  FrameMaps maps;
+  for (const MapsKey& key : shot.maps) {
+    if (key.frame != frame) continue;
+    if (!key.maps.detail.empty()) maps.detail = key.maps.detail;
+    if (!key.maps.disparity.empty()) maps.disparity = key.maps.disparity;
+  }
+  return maps;
+}
+
 }  // namespace
 
 std::span<const MovableParameter> movable_parameters() { return movable; }
@@ -65,11 +76,7 @@ RotoscopeOptions options_of_frame(const RotoscopeOptions& options, std::span<con
   const FilmShot& shot = *shot_of(shots, frame);
   RotoscopeOptions of_frame = options_of_shot(options, shot, at_s);
   of_frame.scene_begins = shot.begin == frame;
-  for (const MapsKey& key : shot.maps) {
-    if (key.frame != frame) continue;
-    if (!key.maps.detail.empty()) of_frame.maps.detail = key.maps.detail;
-    if (!key.maps.disparity.empty()) of_frame.maps.disparity = key.maps.disparity;
-  }
+  of_frame.maps = maps_at(shot, frame);
   return of_frame;
 }
 
@@ -93,9 +100,7 @@ bool begins_shot(std::span<const FilmShot> shots, std::int64_t frame) {
 }
 
 bool has_maps(std::span<const FilmShot> shots, std::int64_t frame) {
-  return std::ranges::any_of(shots, [frame](const FilmShot& shot) {
-    return std::ranges::find(shot.maps, frame, &MapsKey::frame) != shot.maps.end();
-  });
+  return !shots.empty() && !maps_at(*shot_of(shots, frame), frame).empty();
 }
 
 }  // namespace wheatstone
