@@ -261,13 +261,13 @@ kill -TERM "$window"
 wait "$window" || true
 window=''
 
-# The mode and the files stay from one session to the next, but for scripts.
+# The mode and the files stay from one session to the next, but for scripts. The title tells when a file is open.
 export XDG_CONFIG_HOME=$folder/kept
 kept_file=$XDG_CONFIG_HOME/Wheatstone/wheatstone-view.conf
 for _ in 1 2; do
   "$view" painted/painting.wst --size 480x400 2>errors.txt &
   window=$!
-  xdotool search --sync --onlyvisible --pid "$window" >found.txt
+  xdotool search --sync --onlyvisible --all --pid "$window" --name '^painting.wst ' >found.txt
   xdotool windowfocus --sync "$(head -1 found.txt)" key t key q
   wait "$window" || fail "a session without a script ends with $?: $(cat errors.txt)"
   window=''

@@ -203,9 +203,12 @@ void Window::show_session() {
   const Session& session = viewer_.session();
   if (std::exchange(shown_theme_, session.theme) != session.theme)
     QApplication::setPalette(palette_of(session.theme, desktop_palette_));
-  const Item* const item = open_item(session);
-  setWindowTitle(item == nullptr ? QString("Wheatstone")
-                                 : QString::fromStdString(item->front().filename().string()) + " – Wheatstone");
+  const bool shows_something = !std::holds_alternative<std::monostate>(session.opened.content);
+  if (const Item* const item = open_item(session))
+    setWindowTitle((shows_something || !session.opening ? "" : "Opening ") +
+                   QString::fromStdString(item->front().filename().string()) + " – Wheatstone");
+  else
+    setWindowTitle("Wheatstone");
   message_->setText(QString::fromStdString(session.message));
   message_->setToolTip(message_->text());
   place_->setText(QString::fromStdString(place_told(session)));
@@ -235,7 +238,7 @@ void Window::show_session() {
   panels_->show(viewer_);
   menus_->show(viewer_);
   brush_->show(*surface_->widget(), surface_->widget()->devicePixelRatioF());
-  const bool is_empty = std::holds_alternative<std::monostate>(session.opened.content) && !session.opening;
+  const bool is_empty = !shows_something && !session.opening;
   QWidget* const page = is_empty ? static_cast<QWidget*>(start_page_) : surface_->widget();
   if (pages_->currentWidget() != page) {
     pages_->setCurrentWidget(page);
