@@ -38,7 +38,8 @@ struct PaintedContent {
   std::shared_ptr<const Painting> painting;
   std::shared_ptr<const Photograph> photograph;
   std::shared_ptr<const Painting> as_read =
-      {};  ///< a painting that was read, without what a hand did; none: it is the same
+      {};                           ///< a painting that was read, without what a hand did; none: it is the same
+  std::vector<Touch> touches = {};  ///< by hand that the painting shows, where there is a photograph
   friend bool operator==(const PaintedContent&, const PaintedContent&) = default;
 };
 

@@ -15,6 +15,7 @@
 #include "wheatstone/depth/comfort.h"
 #include "wheatstone/error.h"
 #include "wheatstone/files/output_paths.h"
+#include "wheatstone/painting/follow_disparity.h"
 #include "wheatstone/painting/paint.h"
 #include "wheatstone/painting/retouch_strokes.h"
 #include "wheatstone/stereo/geometry_from_disparity.h"
@@ -114,28 +115,53 @@ Image<std::uint8_t> retouched_detail(const Photograph& photograph, const Style& 
   return detail;
 }
 
+/// The open painting with what a hand has done since, as far as that can be shown without planning; none where it
+/// cannot. `now` is the photograph as it is retouched.
+std::shared_ptr<const Painting> touched_at_once(const PaintedContent& open, std::span<const Touch> touches,
+                                                const Photograph& now) {
+  if (!open.painting || layers_of(*open.painting).empty() || !open.photograph->geometry) return {};
+  std::size_t first = open.touches.size();
+  const bool goes_on = touches.size() > first && std::ranges::equal(open.touches, touches.first(first));
+  const auto is_of_strokes = [](const Touch& touch) { return retouched_by(touch.kind) == Retouched::strokes; };
+  const bool changes_strokes = goes_on && std::ranges::any_of(touches.subspan(first), is_of_strokes);
+  const bool changes_depth = open.photograph->touches != now.touches;
+  if (!changes_strokes && !changes_depth) return {};
+  auto painting = std::make_shared<Painting>(*open.painting);
+  if (changes_depth)
+    follow_disparity(open.photograph->geometry->left_disparity, now.geometry->left_disparity, *painting);
+  if (changes_strokes) {
+    while (first > 0 && touches[first].goes_on) --first;  // a stroke of the hand is painted whole
+    retouch_strokes(touches.subspan(first), *painting);
+  }
+  return painting;
+}
+
 }  // namespace
 
-void paint_in_steps(const std::shared_ptr<const Photograph>& photograph, const Style& style,
-                    std::span<const Touch> touches, StrokeFits& fits, const Progress& progress,
-                    const std::function<void(PaintedContent)>& deliver) {
-  const std::shared_ptr<const Photograph> known = made_ready(photograph, style, touches, progress);
-  if (!photograph->geometry) deliver({nullptr, known});
+void paint_in_steps(const PaintedContent& open, const Style& style, std::span<const Touch> touches, StrokeFits& fits,
+                    const Progress& progress, const std::function<void(PaintedContent)>& deliver) {
+  const std::shared_ptr<const Photograph> known = made_ready(open.photograph, style, touches, progress);
+  if (!open.photograph->geometry) deliver({nullptr, known});
+  const auto deliver_painting = [&](std::shared_ptr<const Painting> painting) {
+    deliver({.painting = std::move(painting), .photograph = known, .touches = {touches.begin(), touches.end()}});
+  };
+  const std::shared_ptr<const Painting> touched = touched_at_once(open, touches, *known);
+  if (touched) deliver_painting(touched);
   const Image<Rgb8>& left = known->pictures.left;
   const Image<std::uint8_t> detail = retouched_detail(*known, style, touches);
   constexpr double very_large_px = 6e6;
   const bool keeps_fits = !touches.empty() && static_cast<double>(left.width()) * left.height() <= very_large_px;
   if (!keeps_fits) fits.clear();
-  if (fits.empty() && std::max(left.width(), left.height()) > 2 * coarse_px) {
+  if (fits.empty() && !touched && std::max(left.width(), left.height()) > 2 * coarse_px) {
     Painting coarse = coarse_painting(*known, style, detail, progress);
     retouch_strokes(touches, coarse);
-    deliver({std::make_shared<const Painting>(std::move(coarse)), known});
+    deliver_painting(std::make_shared<const Painting>(std::move(coarse)));
   }
   const auto plan = [&](ViewRange views) {
     Painting painting = keeps_fits ? plan_again(known->pictures, *known->geometry, style, fits, progress, views, detail)
                                    : plan_painting(known->pictures, *known->geometry, style, progress, views, detail);
     retouch_strokes(touches, painting);
-    deliver({std::make_shared<const Painting>(std::move(painting)), known});
+    deliver_painting(std::make_shared<const Painting>(std::move(painting)));
   };
   if (!fits.empty()) plan(ViewRange{});  // what the eyes see first, while the hand goes on
   plan(widest_views);

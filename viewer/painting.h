@@ -17,15 +17,14 @@
 
 namespace wheatstone::viewer {
 
-/// Paints a photograph, coarse at once and then fine: `deliver` gets the photograph with its geometry, where that is
-/// not known yet, then a painting of a small copy, enlarged, then the painting as `wheatstone paint` makes it. The
-/// touches are of its geometry as it was found, and of its detail. `fits` are used and kept for a photograph that is
-/// being touched, unless it is very large; once there are some, a painting
-/// for the eyes takes the place of the coarse one. Throws as
-/// paint_photograph does; what `progress` throws ends it.
-void paint_in_steps(const std::shared_ptr<const Photograph>& photograph, const Style& style,
-                    std::span<const Touch> touches, StrokeFits& fits, const Progress& progress,
-                    const std::function<void(PaintedContent)>& deliver);
+/// Paints an open photograph, coarse at once and then fine: `deliver` gets the photograph with its geometry, where that
+/// is not known yet, then a painting of a small copy, enlarged, then the painting as `wheatstone paint` makes it. The
+/// touches are of its geometry as it was found, of its detail and of its strokes. What new ones change of the depth and
+/// the strokes of a painting shows at once (follow_disparity), in the place of the coarse painting. `fits` are used and
+/// kept for a photograph that is being touched, unless it is very large; once there are some, a painting for the eyes
+/// comes before that for all views. Throws as paint_photograph does; what `progress` throws ends it.
+void paint_in_steps(const PaintedContent& open, const Style& style, std::span<const Touch> touches, StrokeFits& fits,
+                    const Progress& progress, const std::function<void(PaintedContent)>& deliver);
 
 /// A painting of a small copy of a photograph whose geometry is known, in pixels of the copy, which has at most so many
 /// on its longer side. Lengths of a style count in pixels of a 640-pixel-wide picture, so that it looks as the whole.

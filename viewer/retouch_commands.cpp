@@ -146,8 +146,7 @@ void do_touch(Viewer& viewer, const Words& words, bool goes_on) {
   if (touch.kind == Retouch::detail && !reads_detail(session.state.style))
     throw Error(ErrorKind::wrong_usage, fmt::format("the style {} paints all places alike; oil reads the detail map",
                                                     session.state.style.name));
-  session.state.touches.push_back(touch);
-  viewer.paint();
+  viewer.touch(touch);
 }
 
 /// The disparity as it was retouched; beside it the pictures that it belongs to, where no file has them.

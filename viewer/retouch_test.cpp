@@ -5,8 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <filesystem>
+#include <thread>
 
 #include "command_table.h"
 #include "inputs.h"
@@ -167,6 +169,42 @@ TEST_F(OpenPhotograph, ItsStrokesAreKeptWithThePaintingThatIsSavedAndReopened) {
   EXPECT_THROW(run("retouch nearer\ntouch 60 40"), Error);
   run("undo");
   EXPECT_EQ(*content().painting, saved);
+}
+
+TEST_F(OpenPhotograph, ShowsWhatAHandDoesWhileItGoesOn) {
+  run("retouch nearer");
+  run("touch 40 80");
+  std::shared_ptr<const Painting> seen = content().painting;
+  int shown = 0;
+  for (int touch = 0; touch < 300 && shown < 3; ++touch) {
+    run_line(viewer, fmt::format("touch-on {} 80", 40 + touch % 160));
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    viewer.collect();
+    if (content().painting == seen) continue;
+    seen = content().painting;
+    ++shown;
+    EXPECT_EQ(content().touches.size(), content().photograph->touches.size());
+    EXPECT_LE(content().touches.size(), viewer.session().state.touches.size());
+  }
+  EXPECT_EQ(shown, 3);
+  viewer.wait();
+  EXPECT_EQ(content().touches, viewer.session().state.touches);
+  EXPECT_EQ(*content().painting, plan_painting(pair(), *content().photograph->geometry, viewer.session().state.style,
+                                               {}, widest_views, *content().photograph->detail));
+}
+
+TEST_F(OpenPhotograph, ShowsStrokesOfAHandAtOnce) {
+  run("retouch paint");
+  const std::size_t count = stroke_count(*content().painting);
+  run_line(viewer, "touch 120 80");
+  const std::shared_ptr<const Painting> before = content().painting;
+  while (content().painting == before) viewer.collect();
+  EXPECT_EQ(stroke_count(*content().painting), count + 1);
+  EXPECT_EQ(content().painting->surfaces, before->surfaces);
+  const std::shared_ptr<const Painting> at_once = content().painting;
+  viewer.wait();
+  EXPECT_NE(content().painting, at_once);
+  EXPECT_EQ(*content().painting, *at_once);
 }
 
 TEST_F(OpenPhotograph, ComesBackByUndoAStrokeOfTheHandAtATime) {

@@ -184,17 +184,23 @@ void Viewer::paint() {
   if (content == nullptr || !session_.opened.is_ready) return;
   if (!content->photograph) return retouch_what_was_read(*content);
   if (session_.film && (session_.film->plays || !session_.film->paints)) return;
+  paints_anew_ = following_job_ == job_;
+  if (paints_anew_) return;
   session_.opening = Activity{"painting", 0};
   const std::uint64_t job = ++job_;
-  making_.start([this, job, photograph = content->photograph, style = session_.state.style,
+  making_.start([this, job, open = *content, style = session_.state.style,
                  touches = session_.film ? std::vector<Touch>() : session_.state.touches](const std::stop_token& stop) {
     try {
-      paint_in_steps(photograph, style, touches, fits_, progress_of(job, stop),
-                     [this, job](const PaintedContent& painted) {
-                       mailbox_.post([this, job, painted, depth = depth_of(painted)] {
-                         if (job == job_) take_painted(painted, depth);
-                       });
-                     });
+      bool waits = !touches.empty();
+      paint_in_steps(open, style, touches, fits_, progress_of(job, stop), [&](const PaintedContent& painted) {
+        mailbox_.post([this, job, painted, depth = depth_of(painted)] {
+          if (job != job_) return;
+          take_painted(painted, depth);
+          if (std::exchange(following_job_, std::nullopt) == job && paints_anew_) paint();
+        });
+        // What a touch changed is drawn first, and the rest is painted once the hand rests.
+        if (std::exchange(waits, false)) stops_within(stop, settled_after);
+      });
       mailbox_.post([this, job] {
         if (job == job_) session_.opening.reset();
       });
@@ -202,6 +208,13 @@ void Viewer::paint() {
       post_failure(error, job);
     }
   });
+}
+
+void Viewer::touch(const Touch& touch) {
+  session_.state.touches.push_back(touch);
+  const std::uint64_t before = job_;
+  paint();
+  if (job_ != before) following_job_ = job_;
 }
 
 void Viewer::retouch_what_was_read(PaintedContent& content) const {
@@ -224,6 +237,7 @@ Progress Viewer::progress_of(std::uint64_t job, const std::stop_token& stop) {
 void Viewer::post_failure(const std::exception& error, std::uint64_t job) {
   mailbox_.post([this, job, message = std::string(error.what())] {
     if (job != job_) return;
+    following_job_.reset();
     session_.opening.reset();
     tell(message, true);
   });
@@ -269,7 +283,10 @@ void Viewer::take_painted(const PaintedContent& content, const std::optional<Dep
   session_.opened.depth = depth;
   auto& open = std::get<PaintedContent>(session_.opened.content);
   open.photograph = content.photograph;
-  if (content.painting) open.painting = content.painting;
+  if (content.painting) {
+    open.painting = content.painting;
+    open.touches = content.touches;
+  }
   const bool is_placed = session_.film && std::exchange(session_.film->is_placed, true);
   if (!depth_was_known && !is_placed) show_comfortably();
   if (!session_.state.touches.empty()) warn_of_depth();

@@ -51,6 +51,9 @@ class Viewer {
   void step_file(int by);
   /// Paints what is open with the session's style, where there is a photograph.
   void paint();
+  /// Touches the painting that is open with a brush, and paints what that changes. The touches of a hand that goes on
+  /// wait until something of the one before can be seen.
+  void touch(const Touch& touch);
   /// Brings the scene's depth within what is comfortable, with the nearest point on the screen plane.
   void show_comfortably();
   /// The player of the film that is open; none where no film is.
@@ -157,6 +160,8 @@ class Viewer {
   };
   std::optional<Asked> asked_;  ///< for the newest frame that was asked for
   std::uint64_t job_ = 0;       ///< number of the newest opening or painting; what older ones deliver is left aside
+  std::optional<std::uint64_t> following_job_;  ///< that of a touch, until it delivers something
+  bool paints_anew_ = false;                    ///< once it does: something was touched meanwhile
   double moved_at_s_ = 0, wiggled_at_s_ = 0;
   bool reads_particles_ = false;
   struct Ahead {

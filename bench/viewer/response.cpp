@@ -4,14 +4,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <functional>
 #include <memory>
 #include <string_view>
+#include <thread>
 #include <utility>
 #include <vector>
 
 #include "viewer/painting.h"
 #include "viewer/stage.h"
+#include "viewer/viewer.h"
 #include "wheatstone/painting/paint.h"
 #include "wheatstone/particles/framed_region.h"
 #include "wheatstone/stopwatch.h"
@@ -32,13 +35,18 @@ double seconds_of(const std::function<void()>& work) {
   return seconds;
 }
 
+double median(std::vector<double> seconds) {
+  const auto middle = seconds.begin() + static_cast<std::ptrdiff_t>(seconds.size() / 2);
+  std::ranges::nth_element(seconds, middle);
+  return *middle;
+}
+
 /// The median of what `step` takes, called with 1, 2, … after once with 0.
 double median_of(int steps, const std::function<void(int)>& step) {
   step(0);
   std::vector<double> seconds;
   for (int i = 1; i <= steps; ++i) seconds.push_back(seconds_of([&] { step(i); }));
-  std::ranges::nth_element(seconds, seconds.begin() + steps / 2);
-  return seconds[static_cast<std::size_t>(steps) / 2];
+  return median(std::move(seconds));
 }
 
 void print_rate(std::string_view what, double seconds, double aim) {
@@ -93,7 +101,7 @@ void measure_style(const SyntheticStill& still) {
     double passed = 0;
     auto watch = std::make_unique<Stopwatch>(passed);
     StrokeFits nothing_kept;
-    paint_in_steps(photograph, {}, {}, nothing_kept, {}, [&](const PaintedContent&) {
+    paint_in_steps({{}, photograph}, {}, {}, nothing_kept, {}, [&](const PaintedContent&) {
       watch.reset();
       delivered.push_back(passed);
       watch = std::make_unique<Stopwatch>(passed);
@@ -103,6 +111,52 @@ void measure_style(const SyntheticStill& still) {
   print_time("style changed, 640x480: coarse", delivered.front(), 0.2);
   fmt::print("{:<58} {:8.1f} ms {:8.2f} x planning alone\n", "style changed, 640x480: fine", 1000 * delivered.back(),
              delivered.back() / planning);
+}
+
+/// From a touch by hand to a drawn picture in which it shows, and until all is planned again, in the whole viewer.
+void measure_touches() {
+  const SyntheticStill still = make_synthetic_still({.width = 1920, .height = 1080, .samples_a_side = 1});
+  auto photograph = std::make_shared<Photograph>();
+  photograph->pictures = still.pictures;
+  photograph->geometry = still.geometry;
+  photograph->detail.emplace();
+  Viewer viewer;
+  viewer.set_viewport({1920, 1080});
+  Session& session = viewer.session();
+  session.state.style = style_by_name("oil");
+  session.state.mode = "left-right";
+  session.opened.content.emplace<PaintedContent>().photograph = photograph;
+  session.opened.is_ready = true;
+  viewer.paint();
+  viewer.wait();
+  const auto shown_after = [&](const Touch& touch) {
+    const auto pixels = viewer.frame()->picture.pixels();
+    const std::vector<Rgb8> before(pixels.begin(), pixels.end());
+    const auto is_as_before = [&] { return std::ranges::equal(viewer.frame()->picture.pixels(), before); };
+    return seconds_of([&] {
+      viewer.touch(touch);
+      for (auto seen = viewer.frames_drawn(); viewer.frames_drawn() == seen || is_as_before();) {
+        seen = viewer.frames_drawn();
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        viewer.collect();
+      }
+    });
+  };
+  for (const auto& [kind, what, amount] :
+       {std::tuple{Retouch::shift, "depth", 4.f}, {Retouch::detail, "detail", 60.f}, {Retouch::paint, "paint", 0.f}}) {
+    std::vector<double> shown, planned;
+    for (int i = 0; i <= 9; ++i) {
+      const Touch touch{
+          .kind = kind, .x = 200 + 160 * static_cast<float>(i), .y = 500, .radius_px = 20, .amount = amount};
+      const double first = shown_after(touch);
+      const double rest = seconds_of([&] { viewer.wait(); });
+      if (i == 0) continue;
+      shown.push_back(first);
+      planned.push_back(first + rest);
+    }
+    print_time(fmt::format("touch of {}, 1920x1080, both eyes: it shows", what), median(shown), 0.2);
+    fmt::print("{:<58} {:8.1f} ms\n", "  planned again for all views, and drawn", 1000 * median(planned));
+  }
 }
 
 void measure_first_picture() {
@@ -141,6 +195,7 @@ int main() {
   const SyntheticStill still = make_synthetic_still({.width = 640, .height = 480, .samples_a_side = 1});
   measure_painting(still);
   measure_style(still);
+  measure_touches();
   measure_first_picture();
   measure_particles();
 }

@@ -29,9 +29,6 @@ void map_views(Marks& painting, ViewPosition reference, float gain) {
   });
 }
 
-/// Surfaces keep whole steps.
-float in_steps(float disparity_px) { return std::round(disparity_px * disparity_steps) / disparity_steps; }
-
 /// One row of a surface: its disparities before and behind the mapping, and how far the view stands beside the
 /// reference view, in which nothing moves.
 struct MappedRow {
@@ -61,7 +58,7 @@ void lay(const MappedRow& row, int first, std::span<float> nearest) {
     const float next = row.place(x + 1);
     for (int column = -floor_of(0.5f - here); static_cast<float>(column) + 0.5f < next; ++column) {
       const float share = (static_cast<float>(column) + 0.5f - here) / (next - here);
-      land(column, in_steps(row.to[x] + share * (row.to[x + 1] - row.to[x])));
+      land(column, in_whole_steps(row.to[x] + share * (row.to[x + 1] - row.to[x])));
     }
   }
 }
@@ -77,7 +74,7 @@ Surface mapped_surface(const Surface& surface, float separation, const Mapped& m
       for (float& disparity : to.disparity.values_of(run)) {
         const float before = disparity;
         const float place = static_cast<float>(surface.left_px + x++) + 0.5f + separation * before;
-        disparity = in_steps(mapped(place, static_cast<float>(y) + 0.5f, before));
+        disparity = in_whole_steps(mapped(place, static_cast<float>(y) + 0.5f, before));
         least = std::min(least, separation * (before - disparity));
         most = std::max(most, separation * (before - disparity));
       }

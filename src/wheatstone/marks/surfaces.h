@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <vector>
 
 #include "wheatstone/depth/view_position.h"
@@ -9,6 +10,9 @@ namespace wheatstone {
 
 /// Steps of a surface's disparities for one pixel: what a painting file keeps.
 inline constexpr float disparity_steps = 16;
+
+/// The nearest disparity that a surface keeps.
+inline float in_whole_steps(float disparity_px) { return std::round(disparity_px * disparity_steps) / disparity_steps; }
 
 /// What one view sees of the scene's surfaces, as far as it is the first to tell: disparity in pixels, in whole
 /// steps; NaN where another surface tells.
