@@ -80,21 +80,38 @@ const SliceStack& ViewDrawer::placed_slices(const SlicesContent& content, const 
 
 DrawnViews ViewDrawer::draw_painting(const std::shared_ptr<const Painting>& painting, const Slicing& slicing,
                                      const WantedPart& part, const std::vector<ViewPosition>& positions) {
-  if (!prepared_ || prepared_->painting != painting || prepared_->part != part || prepared_->slicing != slicing) {
-    const bool as_it_is = part == WantedPart{1, 0, 0, width_of(*painting), height_of(*painting)};
-    const Placement placement = as_it_is ? Placement{}
-                                         : Placement{.width = part.width,
-                                                     .height = part.height,
-                                                     .scale = part.scale,
-                                                     .left = part.left / part.scale,
-                                                     .top = part.top / part.scale};
-    prepared_.reset();
-    prepared_ = Prepared{painting, part, slicing,
-                         prepare(*painting, {.placement = placement, .slicing = slicing}, Device::automatic)};
-  }
   DrawnViews drawn{.positions = positions, .scale = part.scale, .left = part.left, .top = part.top};
-  for (DrawnView& view : draw(prepared_->ready, positions)) drawn.pictures.push_back(std::move(view.picture));
+  const auto draw_all = [&](const PreparedPainting& ready) {
+    for (DrawnView& view : draw(ready, positions)) drawn.pictures.push_back(std::move(view.picture));
+  };
+  if (prepared_ && (prepared_->part != part || prepared_->slicing != slicing)) prepared_.reset();
+  if (prepared_ && prepared_->painting == painting) {
+    draw_all(prepared_->ready);
+    return drawn;
+  }
+  if (prepared_ && !shows_prepared(positions)) prepared_.reset();
+  const bool as_it_is = part == WantedPart{1, 0, 0, width_of(*painting), height_of(*painting)};
+  const Placement placement = as_it_is ? Placement{}
+                                       : Placement{.width = part.width,
+                                                   .height = part.height,
+                                                   .scale = part.scale,
+                                                   .left = part.left / part.scale,
+                                                   .top = part.top / part.scale};
+  PreparedPainting ready = prepare(*painting, {.placement = placement, .slicing = slicing}, Device::automatic);
+  if (prepared_) {  // a hand changes little of a painting
+    drawn.pictures = drawn_->views.pictures;
+    draw_again(ready, prepared_->ready, positions, drawn.pictures);
+  } else {
+    draw_all(ready);
+  }
+  prepared_ = Prepared{painting, part, slicing, std::move(ready)};
   return drawn;
+}
+
+bool ViewDrawer::shows_prepared(const std::vector<ViewPosition>& positions) const {
+  const auto* const painted = drawn_ ? std::get_if<PaintedContent>(&drawn_->content) : nullptr;
+  return painted != nullptr && painted->painting == prepared_->painting && drawn_->part == prepared_->part &&
+         drawn_->slicing == prepared_->slicing && drawn_->wanted == positions;
 }
 
 const Content& ViewDrawer::placed(const Content& content, const ViewState& state) {

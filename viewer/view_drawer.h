@@ -57,6 +57,9 @@ class ViewDrawer {
   DrawnViews draw_painting(const std::shared_ptr<const Painting>& painting, const Slicing& slicing,
                            const WantedPart& part, const std::vector<ViewPosition>& positions);
 
+  /// Whether the views that were drawn last are these of the painting that is prepared.
+  bool shows_prepared(const std::vector<ViewPosition>& positions) const;
+
   /// The slices as deep as the state has them.
   const SliceStack& placed_slices(const SlicesContent& content, const ViewState& state);
 

@@ -80,6 +80,12 @@ void draw(const PreparedPainting& painting, std::span<const ViewPosition> views,
 void draw_over(PreparedPainting& painting, const Layer& strokes, ViewPosition view, ImageView<const Rgb8> background,
                DrawnView& drawn);
 
+/// Draws views of a painting again, over its canvas colour, whose pictures are those of the painting `before`. Of
+/// strokes without relief, the processor draws only the bands of rows in which strokes or surfaces differ. The same
+/// bytes as `draw`.
+void draw_again(const PreparedPainting& painting, const PreparedPainting& before, std::span<const ViewPosition> views,
+                std::span<Image<Rgb8>> pictures);
+
 /// Whether the processor draws the painting.
 bool is_drawn_by_processor(const PreparedPainting& painting);
 

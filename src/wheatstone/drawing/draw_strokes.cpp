@@ -447,9 +447,10 @@ std::vector<int> bands_by_cost(const PreparedStrokes& painting) {
   return bands;
 }
 
-/// Draws bands of views that have their pictures.
+}  // namespace
+
 void draw_bands(const PreparedStrokes& painting, const Surfaces& surfaces, std::span<const ViewToDraw> views,
-                std::span<const int> bands, bool only_under_top = false) {
+                std::span<const int> bands, bool only_under_top) {
   const std::size_t at_once = views_at_once(painting.width);
   tbb::concurrent_queue<std::vector<FrontToBackAccumulator>> kept;  // reused, because fresh memory is slow
   std::atomic<std::size_t> next = 0;
@@ -470,8 +471,6 @@ void draw_bands(const PreparedStrokes& painting, const Surfaces& surfaces, std::
         static_cast<double>(std::ranges::count(pixels, std::uint8_t{255})) / static_cast<double>(pixels.size());
   });
 }
-
-}  // namespace
 
 void draw_marks(const PreparedStrokes& painting, const Surfaces& surfaces, std::span<const ViewToDraw> views) {
   tbb::parallel_for(std::size_t{0}, views.size(), [&](std::size_t i) {

@@ -29,6 +29,7 @@ struct FlatStroke {
   std::uint32_t seed = 0;  ///< of its bristles
   ViewPosition reference_view;
 
+  friend bool operator==(const FlatStroke&, const FlatStroke&) = default;
   bool changes_colour() const { return red_change != 0 || green_change != 0 || blue_change != 0; }
 };
 

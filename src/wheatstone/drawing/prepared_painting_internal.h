@@ -42,6 +42,10 @@ struct ViewToDraw {
 
 /// Also draws DrawnView::deep, where that is not empty.
 void draw_marks(const PreparedStrokes& painting, const Surfaces& surfaces, std::span<const ViewToDraw> views);
+/// Draws some bands of views that have their pictures; with `only_under_top`, only where strokes of the last layer may
+/// lie.
+void draw_bands(const PreparedStrokes& painting, const Surfaces& surfaces, std::span<const ViewToDraw> views,
+                std::span<const int> bands, bool only_under_top = false);
 /// Adds a layer of strokes with the brush of the last one, and draws its bands again.
 void draw_marks_over(PreparedStrokes& painting, const Surfaces& surfaces, const Layer& strokes, const ViewToDraw& view);
 void draw_marks(const RegionPainting& painting, const Surfaces& surfaces, std::span<const ViewToDraw> views);
