@@ -29,8 +29,15 @@ struct Photograph {
   std::optional<StereoGeometry> geometry;     ///< once it was found; as it was retouched
   std::optional<StereoGeometry> found;        ///< as it was before it was retouched by hand; none: it was not
   std::vector<Touch> touches;                 ///< that `geometry` was retouched with
+  Image<Rgb8> retouched_right;                ///< the right picture that belongs to these; empty: as it is
   std::optional<Image<std::uint8_t>> detail;  ///< as detail_of_faces, once a style wanted it
 };
+
+/// The pictures that it is painted from.
+inline StereoPairView pictures_to_paint(const Photograph& photograph) {
+  const bool is_retouched = !photograph.retouched_right.empty();
+  return {photograph.pictures.left, is_retouched ? photograph.retouched_right : photograph.pictures.right};
+}
 
 /// A painting, and what it was painted from. Either may be missing: a painting that was read has no photograph, and a
 /// photograph has no painting yet.

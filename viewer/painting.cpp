@@ -20,6 +20,7 @@
 #include "wheatstone/painting/retouch_strokes.h"
 #include "wheatstone/stereo/geometry_from_disparity.h"
 #include "wheatstone/stereo/picture_sizes.h"
+#include "wheatstone/stereo/retouched_right.h"
 
 namespace wheatstone::viewer {
 namespace {
@@ -62,7 +63,7 @@ Painting small_painting(const Photograph& photograph, const Style& style, int la
                         ImageView<const std::uint8_t> detail, const Progress& progress) {
   const Image<Rgb8>& left = photograph.pictures.left;
   const PictureSize size = reduced_size({left.width(), left.height()}, largest_px);
-  const StereoPair pair{reduced(left, size), reduced(photograph.pictures.right, size)};
+  const StereoPair pair{reduced(left, size), reduced(pictures_to_paint(photograph).right, size)};
   const StereoGeometry geometry = geometry_from_both(reduced_disparity(photograph.geometry->left_disparity, size),
                                                      reduced_disparity(photograph.geometry->right_disparity, size));
   return plan_painting(pair, geometry, style, progress, ViewRange{}, detail);
@@ -80,6 +81,7 @@ void retouch_geometry(std::span<const Touch> touches, const Progress& progress, 
   Image<float> disparity = (goes_on ? *photograph.geometry : *photograph.found).left_disparity;
   retouch_disparity(goes_on ? touches.subspan(done) : touches, photograph.pictures.left, disparity, progress);
   photograph.geometry = geometry_from_left(std::move(disparity));
+  photograph.retouched_right = retouched_right(photograph.pictures, *photograph.found, *photograph.geometry);
   photograph.touches.assign(touches.begin(), touches.end());
 }
 
@@ -99,6 +101,7 @@ std::shared_ptr<const Photograph> made_ready(const std::shared_ptr<const Photogr
   } else if (ready->found) {
     ready->geometry = std::exchange(ready->found, {});
     ready->touches.clear();
+    ready->retouched_right = {};
   }
   return ready;
 }
@@ -147,7 +150,8 @@ void paint_in_steps(const PaintedContent& open, const Style& style, std::span<co
   };
   const std::shared_ptr<const Painting> touched = touched_at_once(open, touches, *known);
   if (touched) deliver_painting(touched);
-  const Image<Rgb8>& left = known->pictures.left;
+  const StereoPairView pictures = pictures_to_paint(*known);
+  const ImageView<const Rgb8> left = pictures.left;
   const Image<std::uint8_t> detail = retouched_detail(*known, style, touches);
   constexpr double very_large_px = 6e6;
   const bool keeps_fits = !touches.empty() && static_cast<double>(left.width()) * left.height() <= very_large_px;
@@ -158,8 +162,8 @@ void paint_in_steps(const PaintedContent& open, const Style& style, std::span<co
     deliver_painting(std::make_shared<const Painting>(std::move(coarse)));
   }
   const auto plan = [&](ViewRange views) {
-    Painting painting = keeps_fits ? plan_again(known->pictures, *known->geometry, style, fits, progress, views, detail)
-                                   : plan_painting(known->pictures, *known->geometry, style, progress, views, detail);
+    Painting painting = keeps_fits ? plan_again(pictures, *known->geometry, style, fits, progress, views, detail)
+                                   : plan_painting(pictures, *known->geometry, style, progress, views, detail);
     retouch_strokes(touches, painting);
     deliver_painting(std::make_shared<const Painting>(std::move(painting)));
   };

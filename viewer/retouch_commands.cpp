@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -16,6 +17,8 @@
 #include "wheatstone/painting/retouch_strokes.h"
 #include "wheatstone/pictures/disparity_file.h"
 #include "wheatstone/pictures/write_image.h"
+#include "wheatstone/stereo/geometry_from_disparity.h"
+#include "wheatstone/stereo/retouched_right.h"
 
 namespace wheatstone::viewer {
 namespace {
@@ -149,15 +152,31 @@ void do_touch(Viewer& viewer, const Words& words, bool goes_on) {
   viewer.touch(touch);
 }
 
-/// The disparity as it was retouched; beside it the pictures that it belongs to, where no file has them.
-void write_retouched(const std::filesystem::path& path, const std::array<std::filesystem::path, 2>& pictures,
-                     const Photograph& photograph, std::span<const Touch> touches) {
-  Image<float> disparity = (photograph.found ? *photograph.found : *photograph.geometry).left_disparity;
+/// Where the left and the right picture of a map are saved.
+std::array<std::filesystem::path, 2> pictures_beside(const std::filesystem::path& map) {
+  const auto named = [&map](const char* eye) {
+    return map.parent_path() / fmt::format("{}_{}.png", map.stem().string(), eye);
+  };
+  return {named("left"), named("right")};
+}
+
+/// Writes the disparity as it was retouched, and beside it the pictures that it belongs to where no file has them.
+/// Returns whether it did. Throws as check_not_an_input where a picture would replace one of `inputs`.
+bool write_retouched(const std::filesystem::path& path, const Item& inputs, const Photograph& photograph,
+                     std::span<const Touch> touches) {
+  const StereoGeometry& found = photograph.found ? *photograph.found : *photograph.geometry;
+  Image<float> disparity = found.left_disparity;
   retouch_disparity(touches, photograph.pictures.left, disparity);
+  const Image<Rgb8> right = retouched_right(photograph.pictures, found, geometry_from_left(disparity));
+  const bool writes_pictures = photograph.is_rectified || !right.empty();
+  const std::array pictures = pictures_beside(path);
+  if (writes_pictures)
+    for (const std::filesystem::path& picture : pictures) check_not_an_input(picture, inputs);
   write_disparity(path, disparity);
-  if (!photograph.is_rectified) return;
+  if (!writes_pictures) return false;
   write_image(pictures[0], photograph.pictures.left);
-  write_image(pictures[1], photograph.pictures.right);
+  write_image(pictures[1], right.empty() ? photograph.pictures.right : right);
+  return true;
 }
 
 void save_disparity(Viewer& viewer, const Words& words) {
@@ -165,24 +184,20 @@ void save_disparity(Viewer& viewer, const Words& words) {
   const std::shared_ptr<const Photograph> photograph =
       std::get<PaintedContent>(viewer.session().opened.content).photograph;
   const std::filesystem::path path = words[0];
-  const auto beside = [&path](const char* eye) {
-    return path.parent_path() / fmt::format("{}_{}.png", path.stem().string(), eye);
-  };
-  const std::array pictures{beside("left"), beside("right")};
   const Item& inputs = *open_item(viewer.session());
   check_not_an_input(path, inputs);
-  if (photograph->is_rectified)
-    for (const std::filesystem::path& picture : pictures) check_not_an_input(picture, inputs);
+  const auto wrote_pictures = std::make_shared<bool>(false);
   viewer.save(
       path,
-      [path, pictures, photograph, touches = state_of(viewer).touches] {
-        write_retouched(path, pictures, *photograph, touches);
+      [path, inputs, photograph, wrote_pictures, touches = state_of(viewer).touches] {
+        *wrote_pictures = write_retouched(path, inputs, *photograph, touches);
       },
-      [&viewer, path, pictures, is_rectified = photograph->is_rectified, touches = state_of(viewer).touches] {
+      [&viewer, path, wrote_pictures, touches = state_of(viewer).touches] {
         if (touches == state_of(viewer).touches) viewer.session().has_unsaved_work = false;
-        if (is_rectified)
-          viewer.tell(fmt::format("saved {}, and the rectified pictures that it belongs to, {} and {}", path.string(),
-                                  pictures[0].filename().string(), pictures[1].filename().string()));
+        const auto [left, right] = pictures_beside(path);
+        if (*wrote_pictures)
+          viewer.tell(fmt::format("saved {}, and the pictures that it belongs to, {} and {}", path.string(),
+                                  left.filename().string(), right.filename().string()));
       });
 }
 

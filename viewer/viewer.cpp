@@ -196,7 +196,7 @@ void Viewer::paint() {
         mailbox_.post([this, job, painted, depth = depth_of(painted)] {
           if (job != job_) return;
           take_painted(painted, depth);
-          if (std::exchange(following_job_, std::nullopt) == job && paints_anew_) paint();
+          if (std::exchange(following_job_, std::nullopt) == job && paints_anew_) paint_touched();
         });
         // What a touch changed is drawn first, and the rest is painted once the hand rests.
         if (std::exchange(waits, false)) stops_within(stop, settled_after);
@@ -212,6 +212,10 @@ void Viewer::paint() {
 
 void Viewer::touch(const Touch& touch) {
   session_.state.touches.push_back(touch);
+  paint_touched();
+}
+
+void Viewer::paint_touched() {
   const std::uint64_t before = job_;
   paint();
   if (job_ != before) following_job_ = job_;

@@ -51,8 +51,7 @@ class Viewer {
   void step_file(int by);
   /// Paints what is open with the session's style, where there is a photograph.
   void paint();
-  /// Touches the painting that is open with a brush, and paints what that changes. The touches of a hand that goes on
-  /// wait until something of the one before can be seen.
+  /// Touches the painting that is open with a brush, and paints what that changes.
   void touch(const Touch& touch);
   /// Brings the scene's depth within what is comfortable, with the nearest point on the screen plane.
   void show_comfortably();
@@ -140,6 +139,8 @@ class Viewer {
   void take_usual_mode();
   /// Tells where depth that a hand has changed is more than is comfortable.
   void warn_of_depth();
+  /// Paints what a touch changes; more touches wait until something of it can be seen.
+  void paint_touched();
   /// Gives a painting that has no photograph the strokes of the hand.
   void retouch_what_was_read(PaintedContent& content) const;
   void take_painted(const PaintedContent& content, const std::optional<DepthEnds>& depth);
