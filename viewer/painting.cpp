@@ -118,24 +118,32 @@ Image<std::uint8_t> retouched_detail(const Photograph& photograph, const Style& 
   return detail;
 }
 
+std::vector<Touch> of_strokes(std::span<const Touch> touches) {
+  std::vector<Touch> found;
+  std::ranges::copy_if(touches, std::back_inserter(found),
+                       [](const Touch& touch) { return retouched_by(touch.kind) == Retouched::strokes; });
+  return found;
+}
+
 /// The open painting with what a hand has done since, as far as that can be shown without planning; none where it
 /// cannot. `now` is the photograph as it is retouched.
 std::shared_ptr<const Painting> touched_at_once(const PaintedContent& open, std::span<const Touch> touches,
                                                 const Photograph& now) {
-  if (!open.painting || layers_of(*open.painting).empty() || !open.photograph->geometry) return {};
-  std::size_t first = open.touches.size();
-  const bool goes_on = touches.size() > first && std::ranges::equal(open.touches, touches.first(first));
-  const auto is_of_strokes = [](const Touch& touch) { return retouched_by(touch.kind) == Retouched::strokes; };
-  const bool changes_strokes = goes_on && std::ranges::any_of(touches.subspan(first), is_of_strokes);
+  if (!open.painting || !has_strokes_to_retouch(*open.painting) || !open.photograph->geometry) return {};
+  const std::vector<Touch> before = of_strokes(open.touches), all = of_strokes(touches);
+  if (all.size() < before.size() || !std::ranges::equal(before, std::span(all).first(before.size()))) return {};
+  std::span<const Touch> added = std::span(all).subspan(before.size());
   const bool changes_depth = open.photograph->touches != now.touches;
-  if (!changes_strokes && !changes_depth) return {};
+  if (added.empty() && !changes_depth) return {};
+  if (!added.empty() && added.front().goes_on) {
+    // How bright a recoloured stroke becomes depends on all that the stroke of the hand recolours.
+    if (added.front().kind == Retouch::recolour || before.empty()) return {};
+    added = std::span(all).subspan(before.size() - 1);  // from where the hand was
+  }
   auto painting = std::make_shared<Painting>(*open.painting);
   if (changes_depth)
     follow_disparity(open.photograph->geometry->left_disparity, now.geometry->left_disparity, *painting);
-  if (changes_strokes) {
-    while (first > 0 && touches[first].goes_on) --first;  // a stroke of the hand is painted whole
-    retouch_strokes(touches.subspan(first), *painting);
-  }
+  retouch_strokes(added, *painting);
   return painting;
 }
 

@@ -12,6 +12,7 @@
 
 #include "command_table.h"
 #include "inputs.h"
+#include "stage.h"
 #include "temporary_folder.h"
 #include "throws_error.h"
 #include "viewer.h"
@@ -178,7 +179,7 @@ TEST_F(OpenPhotograph, ShowsWhatAHandDoesWhileItGoesOn) {
   run("touch 40 80");
   std::shared_ptr<const Painting> seen = content().painting;
   int shown = 0;
-  for (int touch = 0; touch < 300 && shown < 3; ++touch) {
+  for (int touch = 0; shown < 3; ++touch) {
     run_line(viewer, fmt::format("touch-on {} 80", 40 + touch % 160));
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
     viewer.collect();
@@ -188,8 +189,9 @@ TEST_F(OpenPhotograph, ShowsWhatAHandDoesWhileItGoesOn) {
     EXPECT_EQ(content().touches.size(), content().photograph->touches.size());
     EXPECT_LE(content().touches.size(), viewer.session().state.touches.size());
   }
-  EXPECT_EQ(shown, 3);
   viewer.wait();
+  EXPECT_EQ(viewer.frame()->picture,
+            Stage().draw(viewer.session().opened.content, viewer.session().state, {240, 160}).picture);
   EXPECT_EQ(content().touches, viewer.session().state.touches);
   EXPECT_EQ(*content().painting,
             plan_painting(pictures_to_paint(*content().photograph), *content().photograph->geometry,
@@ -206,7 +208,6 @@ TEST_F(OpenPhotograph, ShowsStrokesOfAHandAtOnce) {
   EXPECT_EQ(content().painting->surfaces, before->surfaces);
   const std::shared_ptr<const Painting> at_once = content().painting;
   viewer.wait();
-  EXPECT_NE(content().painting, at_once);
   EXPECT_EQ(*content().painting, *at_once);
 }
 

@@ -44,7 +44,7 @@ DrawnViews photographs(const StereoPair& pair, const WantedPart& part, const std
 StereoPair under_its_depth(const Photograph& photograph) {
   const StereoGeometry& geometry = *photograph.geometry;
   return {disparity_over(photograph.pictures.left, geometry.left_disparity, geometry.left_disparity),
-          disparity_over(photograph.pictures.right, geometry.right_disparity, geometry.left_disparity)};
+          disparity_over(pictures_to_paint(photograph).right, geometry.right_disparity, geometry.left_disparity)};
 }
 
 std::vector<Image<Rgb8>> slice_views(const SliceStack& stack, const std::vector<ViewPosition>& positions,
@@ -89,7 +89,7 @@ DrawnViews ViewDrawer::draw_painting(const std::shared_ptr<const Painting>& pain
     draw_all(prepared_->ready);
     return drawn;
   }
-  if (prepared_ && !shows_prepared(positions)) prepared_.reset();
+  if (prepared_ && !(shows_prepared(positions) && is_drawn_by_processor(prepared_->ready))) prepared_.reset();
   const bool as_it_is = part == WantedPart{1, 0, 0, width_of(*painting), height_of(*painting)};
   const Placement placement = as_it_is ? Placement{}
                                        : Placement{.width = part.width,

@@ -179,7 +179,14 @@ ShowFirst Viewer::showing(std::uint64_t job) {
   };
 }
 
-void Viewer::paint() {
+void Viewer::paint() { start_painting(false); }
+
+void Viewer::touch(const Touch& touch) {
+  session_.state.touches.push_back(touch);
+  start_painting(true);
+}
+
+void Viewer::start_painting(bool was_touched) {
   auto* const content = std::get_if<PaintedContent>(&session_.opened.content);
   if (content == nullptr || !session_.opened.is_ready) return;
   if (!content->photograph) return retouch_what_was_read(*content);
@@ -188,15 +195,16 @@ void Viewer::paint() {
   if (paints_anew_) return;
   session_.opening = Activity{"painting", 0};
   const std::uint64_t job = ++job_;
-  making_.start([this, job, open = *content, style = session_.state.style,
+  if (was_touched) following_job_ = job;
+  making_.start([this, job, was_touched, open = *content, style = session_.state.style,
                  touches = session_.film ? std::vector<Touch>() : session_.state.touches](const std::stop_token& stop) {
     try {
-      bool waits = !touches.empty();
+      bool waits = was_touched;
       paint_in_steps(open, style, touches, fits_, progress_of(job, stop), [&](const PaintedContent& painted) {
         mailbox_.post([this, job, painted, depth = depth_of(painted)] {
           if (job != job_) return;
           take_painted(painted, depth);
-          if (std::exchange(following_job_, std::nullopt) == job && paints_anew_) paint_touched();
+          if (std::exchange(following_job_, std::nullopt) == job && paints_anew_) start_painting(true);
         });
         // What a touch changed is drawn first, and the rest is painted once the hand rests.
         if (std::exchange(waits, false)) stops_within(stop, settled_after);
@@ -208,17 +216,6 @@ void Viewer::paint() {
       post_failure(error, job);
     }
   });
-}
-
-void Viewer::touch(const Touch& touch) {
-  session_.state.touches.push_back(touch);
-  paint_touched();
-}
-
-void Viewer::paint_touched() {
-  const std::uint64_t before = job_;
-  paint();
-  if (job_ != before) following_job_ = job_;
 }
 
 void Viewer::retouch_what_was_read(PaintedContent& content) const {
@@ -241,9 +238,9 @@ Progress Viewer::progress_of(std::uint64_t job, const std::stop_token& stop) {
 void Viewer::post_failure(const std::exception& error, std::uint64_t job) {
   mailbox_.post([this, job, message = std::string(error.what())] {
     if (job != job_) return;
-    following_job_.reset();
     session_.opening.reset();
     tell(message, true);
+    if (std::exchange(following_job_, std::nullopt) == job && paints_anew_) start_painting(true);
   });
 }
 

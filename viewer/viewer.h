@@ -139,8 +139,8 @@ class Viewer {
   void take_usual_mode();
   /// Tells where depth that a hand has changed is more than is comfortable.
   void warn_of_depth();
-  /// Paints what a touch changes; more touches wait until something of it can be seen.
-  void paint_touched();
+  /// Paints what is open. What a touch changes is shown first: until that can be seen, all that is to be painted waits.
+  void start_painting(bool was_touched);
   /// Gives a painting that has no photograph the strokes of the hand.
   void retouch_what_was_read(PaintedContent& content) const;
   void take_painted(const PaintedContent& content, const std::optional<DepthEnds>& depth);
@@ -161,8 +161,8 @@ class Viewer {
   };
   std::optional<Asked> asked_;  ///< for the newest frame that was asked for
   std::uint64_t job_ = 0;       ///< number of the newest opening or painting; what older ones deliver is left aside
-  std::optional<std::uint64_t> following_job_;  ///< that of a touch, until it delivers something
-  bool paints_anew_ = false;                    ///< once it does: something was touched meanwhile
+  std::optional<std::uint64_t> following_job_;  ///< the painting that a touch started, until it delivers something
+  bool paints_anew_ = false;                    ///< after that delivery: more was touched or chosen meanwhile
   double moved_at_s_ = 0, wiggled_at_s_ = 0;
   bool reads_particles_ = false;
   struct Ahead {

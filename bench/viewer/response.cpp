@@ -135,7 +135,7 @@ void measure_touches() {
     const auto is_as_before = [&] { return std::ranges::equal(viewer.frame()->picture.pixels(), before); };
     return seconds_of([&] {
       viewer.touch(touch);
-      for (auto seen = viewer.frames_drawn(); viewer.frames_drawn() == seen || is_as_before();) {
+      for (auto seen = viewer.frames_drawn(); viewer.is_busy() && (viewer.frames_drawn() == seen || is_as_before());) {
         seen = viewer.frames_drawn();
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
         viewer.collect();

@@ -80,9 +80,9 @@ void draw(const PreparedPainting& painting, std::span<const ViewPosition> views,
 void draw_over(PreparedPainting& painting, const Layer& strokes, ViewPosition view, ImageView<const Rgb8> background,
                DrawnView& drawn);
 
-/// Draws views of a painting again, over its canvas colour, whose pictures are those of the painting `before`. Of
-/// strokes without relief, the processor draws only the bands of rows in which strokes or surfaces differ. The same
-/// bytes as `draw`.
+/// Draws views of a painting again. At first, `pictures` are those of the same views of the painting `before`, drawn
+/// over its canvas colour. Of strokes without relief, the processor draws only the bands of rows in which strokes or
+/// surfaces differ. The same bytes as `draw`.
 void draw_again(const PreparedPainting& painting, const PreparedPainting& before, std::span<const ViewPosition> views,
                 std::span<Image<Rgb8>> pictures);
 

@@ -65,9 +65,11 @@ std::vector<int> differing_bands(const PreparedStrokes& one, const Surfaces& one
     for (std::size_t i = 0; i < one.layers.size() && differs[band] == 0; ++i)
       differs[band] = is_same_band(one.layers[i], other.layers[i], band) ? 0 : 1;
     const int first = static_cast<int>(band) * band_rows, end = std::min(first + band_rows, one.height);
-    for (std::size_t i = 0; i < one_surfaces.seen.size(); ++i)
-      for (int y = first; y < end && differs[band] == 0; ++y)
-        differs[band] = is_same_row(one_surfaces.seen[i].disparity, other_surfaces.seen[i].disparity, y) ? 0 : 1;
+    for (std::size_t i = 0; i < one_surfaces.seen.size(); ++i) {
+      const KnownRuns &disparity = one_surfaces.seen[i].disparity, &other_disparity = other_surfaces.seen[i].disparity;
+      for (int y = first; y < std::min(end, disparity.height()) && differs[band] == 0; ++y)
+        differs[band] = is_same_row(disparity, other_disparity, y) ? 0 : 1;
+    }
   });
   std::vector<int> bands;
   for (std::size_t band = 0; band < differs.size(); ++band)
