@@ -175,7 +175,8 @@ void paint_in_steps(const PaintedContent& open, const Style& style, std::span<co
     retouch_strokes(touches, painting);
     deliver_painting(std::make_shared<const Painting>(std::move(painting)));
   };
-  if (!fits.empty()) plan(ViewRange{});  // what the eyes see first, while the hand goes on
+  // What the eyes see comes first where a hand changed what cannot be shown at once.
+  if (!fits.empty() && !touched) plan(ViewRange{});
   plan(widest_views);
 }
 

@@ -22,7 +22,8 @@ namespace wheatstone::viewer {
 /// touches are of its geometry as it was found, of its detail and of its strokes. What new ones change of the depth and
 /// the strokes of a painting shows at once (follow_disparity), in the place of the coarse painting. `fits` are used and
 /// kept for a photograph that is being touched, unless it is very large; once there are some, a painting for the eyes
-/// comes before that for all views. Throws as paint_photograph does; what `progress` throws ends it.
+/// comes before that for all views where nothing shows at once. Throws as paint_photograph does; what `progress` throws
+/// ends it.
 void paint_in_steps(const PaintedContent& open, const Style& style, std::span<const Touch> touches, StrokeFits& fits,
                     const Progress& progress, const std::function<void(PaintedContent)>& deliver);
 

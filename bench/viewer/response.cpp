@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "stopwatch.h"
 #include "viewer/painting.h"
 #include "viewer/stage.h"
 #include "viewer/viewer.h"
@@ -26,20 +27,8 @@ using namespace wheatstone::viewer;
 
 namespace {
 
-double seconds_of(const std::function<void()>& work) {
-  double seconds = 0;
-  {
-    const Stopwatch watch(seconds);
-    work();
-  }
-  return seconds;
-}
-
-double median(std::vector<double> seconds) {
-  const auto middle = seconds.begin() + static_cast<std::ptrdiff_t>(seconds.size() / 2);
-  std::ranges::nth_element(seconds, middle);
-  return *middle;
-}
+using bench::median;
+using bench::seconds_of;
 
 /// The median of what `step` takes, called with 1, 2, … after once with 0.
 double median_of(int steps, const std::function<void(int)>& step) {

@@ -76,10 +76,13 @@ TEST(DrawAgain, GivesTheBytesOfDrawingWhateverHasChanged) {
   std::ranges::fill(surface.values_of(surface.runs_of(90).front()), 100.f);
   expect_same(hidden);
 
-  Painting on_black = oil();
+  Painting bare = oil();
+  std::get<StrokePainting>(bare.marks).canvas_shows = true;
+  for (Layer& layer : std::get<StrokePainting>(bare.marks).layers) layer.strokes.clear();
+  Painting on_black = bare;
   std::get<StrokePainting>(on_black.marks).canvas_colour = {0, 0, 0};
-  std::get<StrokePainting>(on_black.marks).layers.clear();
-  expect_same(on_black);
+  EXPECT_NE(pictures_of(on_black), pictures_of(bare));
+  EXPECT_EQ(drawn_again(on_black, bare), pictures_of(on_black));
 }
 
 TEST(DrawAgain, GivesTheBytesOfDrawingWhereASurfaceHasFewRows) {
