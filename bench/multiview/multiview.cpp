@@ -15,7 +15,6 @@
 
 #include "stopwatch.h"
 #include "wheatstone/measures/view_measures.h"
-#include "wheatstone/multiview/cost_model_internal.h"
 #include "wheatstone/multiview/naive_view.h"
 #include "wheatstone/multiview/render.h"
 #include "wheatstone/multiview/renderers_internal.h"
@@ -248,31 +247,6 @@ void print_exact(const Stage& stage) {
       1e2 * wall, cores, naive / (wall / 10), wall / 10 / copy, 1e3 * copy);
 }
 
-/// By the cost model: exact views against the same views that are projected once.
-double bound_of_incremental(int views) {
-  const Costs costs = estimate_costs({.particles = 2'654'562, .splat_px = 4, .views = views});
-  return costs.exact / costs.incremental;
-}
-
-void print_targets(const Cloud& universe, const Stage& nine) {
-  const Times t = measure(nine, SliceFilter::linear);
-  fmt::print("\nTargets, {} particles, 36 planes, filter linear\n", universe.size());
-  fmt::print(
-      "  9 views: exact/layered {:.2f} (at least 6; thesis 6.5), stage 1 / one view {:.2f} (at most 1.15; thesis "
-      "1.29)\n",
-      t.exact / t.layered, t.stage_1 / t.one_exact);
-  fmt::print(
-      "  9 views: exact/incremental {:.2f} (thesis, on paper, 2.8; {:.2f} if what views share is all that is saved)\n",
-      t.exact / t.incremental, bound_of_incremental(9));
-  const Times many = measure(Stage(universe, 45, 2, 6), SliceFilter::linear, planes_of_display, false);
-  fmt::print("  45 views: exact/layered {:.2f} (at least 24)\n", many.exact / many.layered);
-  const Times large = measure(Stage(universe, 9, 8, 24), SliceFilter::linear, planes_of_display, false);
-  fmt::print(
-      "  9 views, splats of 8 to 24 px: exact/layered {:.2f} (at least 5), stage 1 / one view {:.2f} (at most 1.3; "
-      "thesis 3.8)\n",
-      large.exact / large.layered, large.stage_1 / large.one_exact);
-}
-
 constexpr std::array<Method, 3> methods{Method::exact, Method::incremental, Method::layered};
 
 /// Processor seconds of the three methods, medians of rounds in which they take turns.
@@ -291,6 +265,25 @@ std::array<double, 3> seconds_by_method(const Stage& stage, int rounds) {
     seconds[m] = all[m][all[m].size() / 2];
   }
   return seconds;
+}
+
+void print_targets(const Cloud& universe, const Stage& nine) {
+  const Times t = measure(nine, SliceFilter::linear);
+  fmt::print("\nTargets, {} particles, 36 planes, filter linear\n", universe.size());
+  fmt::print(
+      "  9 views: exact/layered {:.2f} (at least 6; thesis 6.5), stage 1 / one view {:.2f} (at most 1.15; thesis "
+      "1.29)\n",
+      t.exact / t.layered, t.stage_1 / t.one_exact);
+  fmt::print("  9 views: exact/incremental {:.2f} (thesis, on paper, 2.8), {:.0f} ns of a thread a splat and view\n",
+             t.exact / t.incremental,
+             1e9 * seconds_by_method(nine, 3)[1] / (9. * static_cast<double>(universe.size())));
+  const Times many = measure(Stage(universe, 45, 2, 6), SliceFilter::linear, planes_of_display, false);
+  fmt::print("  45 views: exact/layered {:.2f} (at least 24)\n", many.exact / many.layered);
+  const Times large = measure(Stage(universe, 9, 8, 24), SliceFilter::linear, planes_of_display, false);
+  fmt::print(
+      "  9 views, splats of 8 to 24 px: exact/layered {:.2f} (at least 5), stage 1 / one view {:.2f} (at most 1.3; "
+      "thesis 3.8)\n",
+      large.exact / large.layered, large.stage_1 / large.one_exact);
 }
 
 void print_choices(const Cloud& universe) {

@@ -54,32 +54,43 @@ void finish_light_band(const LightBand& band, const ToneMap& map, int top, const
   }
 }
 
-/// With mass, the third channel stays dark. Alpha is included if there is a channel for it.
-void take_plane(const LightBand& band, std::uint16_t* to, std::ptrdiff_t stride, bool alpha, SliceBand::Extent* lit) {
+/// Takes the light of one chunk of a row, and leaves it dark. With mass, the third channel stays dark. Alpha is
+/// included if there is a channel for it. Returns whether there was light.
+HWY_INLINE bool take_chunk(float* from, int channels, std::uint16_t* to, std::ptrdiff_t stride, bool alpha,
+                           bool was_lit) {
   const Floats d;
   const hn::Rebind<hwy::float16_t, Floats> halves;
   const hn::Rebind<std::uint16_t, Floats> bits;
+  constexpr int width = SliceBand::chunk_width;
+  Vec any = hn::Zero(d);
+  for (int i = 0; i < width * channels; i += lanes) any = hn::Or(any, hn::Load(d, from + i));
+  const bool lit = !hn::AllTrue(d, hn::Eq(any, hn::Zero(d)));
+  if (!lit && !was_lit) return false;
   const auto store = [&](Vec light, std::uint16_t* at) {
     hn::StoreU(hn::BitCast(bits, hn::DemoteTo(halves, hn::Min(light, hn::Set(d, 65504.f)))), bits, at);
   };
+  for (int x = 0; x < width; x += lanes) {
+    const Channels light = load_channels(from + x * channels, channels);
+    store(light.red, to + x);
+    store(light.green, to + stride + x);
+    if (channels > 2) store(light.blue, to + 2 * stride + x);
+    if (alpha) store(light.alpha, to + 3 * stride + x);
+  }
+  if (lit)
+    for (int i = 0; i < width * channels; i += lanes) hn::Store(hn::Zero(d), d, from + i);
+  return lit;
+}
+
+/// `lit` says which chunks of the plane's rows hold light.
+void take_plane(LightBand& band, std::uint16_t* to, std::ptrdiff_t stride, bool alpha, std::uint8_t* lit) {
   const int channels = band.channels();
   // Rows of both are longer than they must be.
   const int width = std::min(band.width_with_margins(), static_cast<int>(stride));
-  for (int row = 0; row < band.rows(); ++row, to += (alpha ? 4 : 3) * stride) {
-    const float* from = band.row(row) - LightBand::margin * channels;
-    lit[row] = {.first = width, .end = -LightBand::margin};
-    for (int x = 0; x < width; x += lanes) {
-      const Channels light = load_channels(from + x * channels, channels);
-      Vec sum = hn::Add(light.red, hn::Add(light.green, light.blue));
-      if (alpha) sum = hn::Add(sum, light.alpha);
-      if (!hn::AllFalse(d, hn::Gt(sum, hn::Zero(d)))) {
-        lit[row].first = std::min(lit[row].first, x - LightBand::margin);
-        lit[row].end = x + lanes - LightBand::margin;
-      }
-      store(light.red, to + x);
-      store(light.green, to + stride + x);
-      if (channels > 2) store(light.blue, to + 2 * stride + x);
-      if (alpha) store(light.alpha, to + 3 * stride + x);
+  for (int row = 0; row < band.rows(); ++row, to += (alpha ? 4 : 3) * stride, lit += stride / SliceBand::chunk_width) {
+    float* const from = band.row(row) - LightBand::margin * channels;
+    for (int x = 0; x < width; x += SliceBand::chunk_width) {
+      std::uint8_t& chunk = lit[x / SliceBand::chunk_width];
+      chunk = take_chunk(from + x * channels, channels, to + x, stride, alpha, chunk != 0);
     }
   }
 }
@@ -303,13 +314,11 @@ HWY_EXPORT(composite_views);
 HWY_EXPORT(composite_interleaved);
 
 void SliceBand::take(int plane, LightBand& band) {
-  Extent* const lit = lit_.data() + static_cast<std::size_t>(plane) * rows_;
-  if (band.lit()) {
-    HWY_DYNAMIC_DISPATCH(take_plane)(band, row(plane, 0, 0) - margin(), stride_, hides(), lit);
-  } else {
-    std::fill(lit, lit + rows_, Extent{});
-  }
-  band.darken();
+  const std::span<std::uint8_t> lit = lit_of(plane);
+  const auto is_lit = [](std::uint8_t chunk) { return chunk != 0; };
+  if (!band.lit() && std::ranges::none_of(lit, is_lit)) return;
+  HWY_DYNAMIC_DISPATCH(take_plane)(band, row(plane, 0, 0) - margin(), stride_, hides(), lit.data());
+  band.note_dark();
 }
 
 void finish_band(const LightBand& band, const ToneMap& tone, int top, const ViewTarget& target) {

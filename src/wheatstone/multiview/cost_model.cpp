@@ -23,7 +23,7 @@ Costs estimate_costs(const Workload& workload) {
   const double blended = workload.absorbs ? (92 + 6.9 * area) * ns : fragments;
   // Planes of mass are those of smaller pictures, too, and hold less of what lies beside each other in the cache.
   const double tone_map = (workload.mass ? 6.5 : 4) * ns;
-  const double take_plane = (workload.absorbs ? 27 : workload.mass ? 0.8 : 1.2) * ns;
+  const double take_plane = (workload.absorbs ? 27 : workload.mass ? 0.8 : 0.9) * ns;
   const double composite = (workload.absorbs ? 0.5 : workload.mass ? 0.03 : 0.045) * ns;
   const double in_planes = workload.mass ? 1.9 : 1.25;
   Costs costs;

@@ -58,6 +58,8 @@ class LightBand {
   /// True if anything was drawn since the band was dark; code that draws calls note_light().
   bool lit() const { return lit_; }
   void note_light() { lit_ = true; }
+  /// Code that made all of the band dark itself calls this.
+  void note_dark() { lit_ = false; }
 
  private:
   /// A processor takes a load for one that depends on a store 4096 bytes away. Rows that are an odd multiple of 512

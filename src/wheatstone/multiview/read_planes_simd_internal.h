@@ -81,7 +81,7 @@ void unpack(const SliceBand& slices, int row, int x, const std::vector<std::arra
     const int first = std::max(x + reach[plane][0], slices.left() - slices.margin());
     const int end = std::min(x + block_width + reach[plane][1], slices.right() + slices.margin());
     // Dark planes cost nothing.
-    if (!slices.lit(plane, row).meets(first - slices.left(), end - slices.left())) continue;
+    if (!slices.lit(plane, row, first - slices.left(), end - slices.left())) continue;
     block.lit.push_back(plane);
     block.first[plane] = x + reach[plane][0];
     for (int channel = 0; channel < block.channels; ++channel) {

@@ -29,7 +29,7 @@ class SliceBand {
         stride_(LightBand(left, right, 0, LightBand::most_channels).width_with_margins()),
         // A vector may be read from the last pixel on.
         values_(static_cast<std::size_t>(stride_) * channels_ * rows * planes + 16),
-        lit_(static_cast<std::size_t>(planes) * rows_) {}
+        lit_(static_cast<std::size_t>(stride_ / chunk_width) * rows * planes) {}
 
   int left() const { return left_; }
   int right() const { return right_; }
@@ -48,18 +48,26 @@ class SliceBand {
   /// Takes the light of a band of the same shape as one plane, and leaves that band dark.
   void take(int plane, LightBand& band);
 
-  /// Columns, counted from `left()`, outside of which a row of a plane is dark.
-  struct Extent {
-    int first = 0, end = 0;
-    bool meets(int from, int to) const { return first < to && from < end; }
-  };
-  const Extent& lit(int plane, int row) const { return lit_[static_cast<std::size_t>(plane) * rows_ + row]; }
+  /// Pixels of a row that are marked together as lit or dark. Dark ones are stored as zeros.
+  static constexpr int chunk_width = 32;
+  /// True if any chunk of a row that columns `first` to `end` touch is lit, counted from `left()`, margins included.
+  bool lit(int plane, int row, int first, int end) const {
+    const std::uint8_t* const chunks = lit_.data() + (static_cast<std::size_t>(plane) * rows_ + row) * chunks_a_row();
+    for (int chunk = (first + margin()) / chunk_width; chunk * chunk_width < end + margin(); ++chunk)
+      if (chunks[chunk] != 0) return true;
+    return false;
+  }
 
  private:
+  std::size_t chunks_a_row() const { return static_cast<std::size_t>(stride_) / chunk_width; }
+  std::span<std::uint8_t> lit_of(int plane) {
+    return std::span(lit_).subspan(chunks_a_row() * rows_ * plane, chunks_a_row() * rows_);
+  }
+
   int left_ = 0, right_ = 0, rows_ = 0, planes_ = 0, channels_ = 3;
   std::ptrdiff_t stride_ = 0;
   std::vector<std::uint16_t> values_;
-  std::vector<Extent> lit_;
+  std::vector<std::uint8_t> lit_;  // [plane][row][chunk]
 };
 
 /// How a slice is read between its pixels.
