@@ -76,15 +76,29 @@ bool move_alike(const Block& a, const Block& b) {
 
 }  // namespace
 
-BlockAgreement block_agreement(ImageView<const Rgb8> a, ImageView<const Rgb8> b) {
+BlockAgreement block_agreement(ImageView<const Rgb8> a, ImageView<const Rgb8> b, double least_share) {
   const cv::Mat from = small_luminance(a), to = small_luminance(b);
   if (from.cols < block_px || from.rows < block_px) return {};
   const int columns = (from.cols - block_px) / step_px + 1, rows = (from.rows - block_px) / step_px + 1;
   Image<Block> blocks(columns, rows);
-  for (int y = 0; y < rows; ++y)
+  const auto look_at_row = [&](int y) {
     for (int x = 0; x < columns; ++x) blocks(x, y) = look_for(from, to, {x * step_px, y * step_px});
-
+  };
   BlockAgreement agreement;
+  int found = 0;
+  constexpr int rows_a_look = 3;
+  for (int y = 0; y < rows; y += rows_a_look) {
+    look_at_row(y);
+    for (const Block& block : blocks.row(y)) {
+      agreement.blocks += block.textured ? 1 : 0;
+      found += block.move ? 1 : 0;
+    }
+  }
+  if (found < least_share * agreement.blocks) return agreement;
+  for (int y = 0; y < rows; ++y)
+    if (y % rows_a_look != 0) look_at_row(y);
+
+  agreement.blocks = 0;
   int agreeing = 0;
   for (int y = 0; y < rows; ++y) {
     for (int x = 0; x < columns; ++x) {
@@ -142,6 +156,8 @@ void matched_points(const Features& left, const Features& right, std::vector<cv:
   }
 }
 
+constexpr double least_block_share = 0.1;  // of a pair
+
 }  // namespace
 
 PairEvidence pair_evidence(const StereoPair& pair) {
@@ -149,7 +165,7 @@ PairEvidence pair_evidence(const StereoPair& pair) {
   const Features left = features_of(pair.left), right = features_of(pair.right);
   evidence.left_features = static_cast<int>(left.points.size());
   evidence.right_features = static_cast<int>(right.points.size());
-  evidence.block_share = block_agreement(pair.left, pair.right).share;
+  evidence.block_share = block_agreement(pair.left, pair.right, least_block_share).share;
   constexpr std::size_t least_points = 2;
   if (left.points.size() < least_points || right.points.size() < least_points) return evidence;
 
@@ -168,7 +184,7 @@ PairEvidence pair_evidence(const StereoPair& pair) {
 bool not_a_pair(const StereoPair& pair) {
   // Pairs have hundreds of inliers, two scenes fewer than ten (not_a_pair_test).
   constexpr int least_features = 100, least_inliers = 20;
-  constexpr double least_share = 0.02, least_block_share = 0.1;
+  constexpr double least_share = 0.02;
   const PairEvidence evidence = pair_evidence(pair);
   const int features = std::min(evidence.left_features, evidence.right_features);
   if (features < least_features) return false;

@@ -325,7 +325,7 @@ std::optional<Straightened> find_straightened(const cv::Mat& card, bool touch) {
 bool shows_one_scene_twice(ImageView<const Rgb8> picture, const CardWindows& windows) {
   constexpr double least_share = 0.25;
   const StereoPair halves = cut_card(picture, windows);
-  return block_agreement(halves.left, halves.right).share >= least_share;
+  return block_agreement(halves.left, halves.right, least_share).share >= least_share;
 }
 
 }  // namespace

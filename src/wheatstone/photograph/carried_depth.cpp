@@ -32,9 +32,8 @@ int colourfulness(Rgb8 colour) {
   return most - least;
 }
 
-/// Share of the pixels of a half, every fourth of every fourth row, of more colour than this.
-double coloured_share(const Image<Rgb8>& both, int first_column, int tolerance) {
-  constexpr int step = 4;
+/// Share of the pixels of a half, of every step-th of every step-th row, of more colour than this.
+double coloured_share(const Image<Rgb8>& both, int first_column, int tolerance, int step = 4) {
   int all = 0, coloured = 0;
   for (int y = 0; y < both.height(); y += step)
     for (int x = first_column; x < first_column + both.width() / 2; x += step) {
@@ -97,9 +96,19 @@ CarriedDepth cut(const Image<Rgb8>& both) {
   return read;
 }
 
+/// Whether a first look at a JPEG shows a right half in colour, as most photographs have. A mean of 64 pixels has at
+/// most the mean of their colourfulness: where this is so, many of these pixels are far from grey.
+bool right_half_is_coloured(std::string_view bytes, const fs::path& path) {
+  constexpr int least_width = 400;
+  constexpr double some = 0.25;
+  const Image<Rgb8> small = decode_small_jpeg(bytes, path, least_width);
+  return coloured_share(small, small.width() / 2, 3 * grey_tolerance, 1) > some;
+}
+
 /// The picture and the depth of a file whose halves, next to each other, look like these; none where they do not.
 /// A name that ends in the word "rgbd" is believed where the right half is grey. Throws as read_image.
-std::optional<CarriedDepth> find_depth_beside(const fs::path& path) {
+std::optional<CarriedDepth> find_depth_beside(std::string_view bytes, const fs::path& path) {
+  if (is_jpeg(bytes) && right_half_is_coloured(bytes, path)) return {};
   const Image<Rgb8> both = read_image(path);
   if (both.width() < 2 || both.width() % 2 != 0) return {};
   constexpr double few = 0.002, some = 0.02;
@@ -230,7 +239,7 @@ std::optional<CarriedDepth> find_carried_depth(const fs::path& path) {
   }
   auto found = is_jpeg(bytes) ? jpeg_depth(path, bytes) : std::nullopt;
   if (!found && may_be_animated(bytes)) return {};
-  if (!found) return find_depth_beside(path);
+  if (!found) return find_depth_beside(bytes, path);
   // The map lies as the picture is stored.
   const int orientation = open_picture(path).reader->picture().value_of("Orientation", 1);
   return CarriedDepth{read_image(path), upright(std::move(found->first), orientation), found->second,
@@ -245,7 +254,7 @@ bool carries_depth(const fs::path& path) {
       const Xmp xmp = read_xmp(bytes, path);
       if (xmp_property(xmp, "GDepth:Data") || lists_depth(container_items(path, xmp))) return true;
     }
-    return !may_be_animated(bytes) && find_depth_beside(path).has_value();
+    return !may_be_animated(bytes) && find_depth_beside(bytes, path).has_value();
   } catch (const Error&) {
     return false;
   }

@@ -189,7 +189,9 @@ TEST(CarriedDepth, BesideAPhotographIsRecognised) {
   write_image(folder / "views.png", joined(left, still.pictures.right, true));
   write_image(folder / "copy.png", joined(left, grey, true));
   write_image(folder / "other.png", joined(left, other, true));
-  for (const char* name : {"views.png", "copy.png", "other.png"}) EXPECT_FALSE(carries_depth(folder / name)) << name;
+  write_image(folder / "views.jpg", joined(left, still.pictures.right, true));
+  for (const char* name : {"views.png", "views.jpg", "copy.png", "other.png"})
+    EXPECT_FALSE(carries_depth(folder / name)) << name;
   // The name is believed of a grey photograph.
   write_image(folder / "old_rgbd.png", joined(grey, depth, true));
   write_image(folder / "old.png", joined(grey, depth, true));

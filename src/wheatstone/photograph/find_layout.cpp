@@ -79,7 +79,7 @@ std::optional<StereoLayout> layout_from_name(const std::filesystem::path& path, 
   return half ? with_half_size(*layout, *half) : with_likely_size(*layout, width, height);
 }
 
-std::optional<StereoLayout> layout_from_halves(ImageView<const Rgb8> picture) {
+std::optional<Arrangement> arrangement_of_halves(ImageView<const Rgb8> picture) {
   // Pairs agree in over half of their blocks; the halves of one photograph in a fiftieth, of a chessboard in a ninth.
   constexpr double least_share = 0.25;
   constexpr int least_blocks = 12;
@@ -88,15 +88,23 @@ std::optional<StereoLayout> layout_from_halves(ImageView<const Rgb8> picture) {
   const auto part = [&](int x, int y, int width, int height) {
     return ImageView<const Rgb8>(&picture(x, y), width, height, picture.stride());
   };
-  const BlockAgreement sideways = block_agreement(part(0, 0, half_width, picture.height()),
-                                                  part(picture.width() - half_width, 0, half_width, picture.height()));
-  const BlockAgreement above = block_agreement(part(0, 0, picture.width(), half_height),
-                                               part(0, picture.height() - half_height, picture.width(), half_height));
+  const BlockAgreement sideways =
+      block_agreement(part(0, 0, half_width, picture.height()),
+                      part(picture.width() - half_width, 0, half_width, picture.height()), least_share);
+  const BlockAgreement above =
+      block_agreement(part(0, 0, picture.width(), half_height),
+                      part(0, picture.height() - half_height, picture.width(), half_height), least_share);
   const bool side_by_side = sideways.share >= above.share;
   const BlockAgreement& better = side_by_side ? sideways : above;
   const BlockAgreement& worse = side_by_side ? above : sideways;
   if (better.blocks < least_blocks || better.share < least_share || worse.share > better.share / 2) return {};
+  return side_by_side ? Arrangement::side_by_side : Arrangement::over_under;
+}
 
+std::optional<StereoLayout> layout_from_halves(ImageView<const Rgb8> picture) {
+  const std::optional<Arrangement> arrangement = arrangement_of_halves(picture);
+  if (!arrangement) return {};
+  const bool side_by_side = *arrangement == Arrangement::side_by_side;
   const StereoLayout layout = with_likely_size(side_by_side ? StereoLayout::left_right : StereoLayout::top_bottom,
                                                picture.width(), picture.height());
   const std::optional<Image<Rgb8>> even = without_middle(picture, layout);

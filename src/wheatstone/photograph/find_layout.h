@@ -16,9 +16,12 @@ bool is_stereo_file_name(const std::filesystem::path& path);
 /// tell: "LR" means squeezed to some players and full size to others.
 std::optional<StereoLayout> layout_from_name(const std::filesystem::path& path, int width, int height);
 
+/// Whether a picture's halves, next to or above each other, are two views of one scene; none where neither pair looks
+/// like one. A small copy, 400 pixels wide, shows it as well.
+std::optional<Arrangement> arrangement_of_halves(ImageView<const Rgb8> picture);
+
 /// What the picture itself shows: halves next to or above each other that are two views of one scene. The left eye's is
-/// taken to be the first unless the picture speaks against it (eye_order). None where neither half pair looks
-/// like a stereo pair.
+/// taken to be the first unless the picture speaks against it (eye_order).
 std::optional<StereoLayout> layout_from_halves(ImageView<const Rgb8> picture);
 
 /// Whether halves of a picture of this size are more likely squeezed: full-size views are seldom wider than 2.4 : 1 and

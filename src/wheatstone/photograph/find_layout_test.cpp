@@ -62,7 +62,7 @@ Image<Rgb8> resized(const Image<Rgb8>& picture, int width, int height) {
 }
 
 void expect_seen(const StereoPair& pair) {
-  EXPECT_GE(block_agreement(pair.left, pair.right).share, 0.5);
+  EXPECT_GE(block_agreement(pair.left, pair.right, 0).share, 0.5);
   EXPECT_EQ(layout_from_halves(joined(pair.left, pair.right, true)), left_right);
   EXPECT_EQ(layout_from_halves(joined(pair.left, pair.right, false)), top_bottom);
   EXPECT_EQ(layout_from_halves(resized(joined(pair.left, pair.right, true), 960, 540)), left_right_half);
@@ -81,6 +81,21 @@ TEST(LayoutFromHalvesLong, IsSeenInALargePair) {
   if (!aloe) GTEST_SKIP() << "no shared photographs";
   expect_seen(*aloe);
   EXPECT_EQ(layout_from_halves(aloe->left), std::nullopt);
+}
+
+// A first look at a JPEG decodes an eighth of its size.
+TEST(LayoutFromHalves, IsSeenInSmallCopies) {
+  constexpr int width = 400;
+  const auto small = [](const Image<Rgb8>& picture) {
+    return resized(picture, width, width * picture.height() / picture.width());
+  };
+  for (const auto& [name, pair] : pairs()) {
+    SCOPED_TRACE(name);
+    EXPECT_EQ(arrangement_of_halves(small(joined(pair.left, pair.right, true))), Arrangement::side_by_side);
+    EXPECT_EQ(arrangement_of_halves(small(joined(pair.left, pair.right, false))), Arrangement::over_under);
+    EXPECT_EQ(arrangement_of_halves(small(pair.left)), std::nullopt);
+    EXPECT_EQ(arrangement_of_halves(small(pair.right)), std::nullopt);
+  }
 }
 
 TEST(LayoutFromHalves, IsCrossEyedWhereThePictureSaysSo) {

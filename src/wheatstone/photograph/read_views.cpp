@@ -182,19 +182,27 @@ struct KnownLayout {
   HowKnown how;
 };
 
-std::optional<KnownLayout> known_layout(std::string_view bytes, const fs::path& path, ImageView<const Rgb8> picture,
-                                        const ReadViewsOptions& options) {
+/// The layout that is given or that the file says of a picture of this size.
+std::optional<KnownLayout> told_layout(std::string_view bytes, const fs::path& path, int width, int height,
+                                       const ReadViewsOptions& options) {
   if (options.layout) return KnownLayout{*options.layout, HowKnown::given};
   if (const auto descriptor = read_jps_descriptor(bytes, path))
     return KnownLayout{layout_of(*descriptor, path), HowKnown::metadata};
   if (const auto chunk = read_stereo_chunk(bytes))
     return KnownLayout{chunk->left_first ? StereoLayout::left_right : StereoLayout::right_left, HowKnown::metadata};
-  const std::optional<StereoLayout> by_name = layout_from_name(path, picture.width(), picture.height());
+  const std::optional<StereoLayout> by_name = layout_from_name(path, width, height);
   if (by_name) return KnownLayout{*by_name, HowKnown::name};
   const std::string ending = ending_of(path);
   if (ending == ".jps" || ending == ".pns") return KnownLayout{StereoLayout::right_left, HowKnown::name};
-  if (const auto seen = layout_from_halves(picture)) return KnownLayout{*seen, HowKnown::halves};
   return {};
+}
+
+/// Whether a first look at a JPEG shows that it holds one view, as most photographs do.
+bool holds_one_view(std::string_view bytes, const fs::path& path, const ReadViewsOptions& options) {
+  if (!is_jpeg(bytes)) return false;
+  constexpr int least_width = 400;
+  const Image<Rgb8> small = decode_small_jpeg(bytes, path, least_width);
+  return !told_layout(bytes, path, small.width(), small.height(), options) && !arrangement_of_halves(small);
 }
 
 /// Takes out the columns between the two pictures of a PNG with the chunk sTER: the right one begins at a column that
@@ -238,9 +246,12 @@ ViewsFile views_of_scan(ImageView<const Rgb8> picture, const fs::path& path, Sca
 
 std::optional<ViewsFile> views_in_one_picture(std::string_view bytes, const fs::path& path,
                                               const ReadViewsOptions& options) {
+  if (!options.scan && holds_one_view(bytes, path, options)) return {};
   Image<Rgb8> picture = read_image(path);
   if (options.scan) return views_of_scan(picture, path, *options.scan);
-  const std::optional<KnownLayout> known = known_layout(bytes, path, picture, options);
+  std::optional<KnownLayout> known = told_layout(bytes, path, picture.width(), picture.height(), options);
+  if (!known)
+    if (const auto seen = layout_from_halves(picture)) known = {*seen, HowKnown::halves};
   if (!known) return {};
   if (known->how == HowKnown::metadata && read_stereo_chunk(bytes)) picture = without_gap(std::move(picture));
   ViewsFile file;

@@ -202,6 +202,11 @@ TEST(ReadViews, AreFoundByLayoutNameAndHalvesInThisOrder) {
   file = read_views(folder / "above.webp");
   EXPECT_EQ(file.layout, StereoLayout::top_bottom);
   EXPECT_EQ(file.views[1].height(), 360);
+  // A JPEG is looked at in a small copy first.
+  write_image(folder / "above.jpg", joined(pair.left, pair.right, false));
+  EXPECT_EQ(read_views(folder / "above.jpg").layout, StereoLayout::top_bottom);
+  write_image(folder / "crossed.jpg", joined(pair.right, pair.left, true));
+  EXPECT_EQ(read_views(folder / "crossed.jpg").layout, StereoLayout::right_left);
   if (const auto teddy = shared_pair("teddy")) {
     write_image(folder / "teddy.png", joined(teddy->left, teddy->right, true));
     file = read_views(folder / "teddy.png");
@@ -223,8 +228,10 @@ double share_off_by(const Image<float>& found, const StereoGeometry& truth, floa
 
 TEST(ReadViews, OfOneOrdinaryPictureAreRefused) {
   const TemporaryFolder folder;
-  write_image(folder / "mono.png", still_for_test().left);
-  EXPECT_FALSE(find_views(folder / "mono.png"));
+  for (const char* name : {"mono.png", "mono.jpg"}) {
+    write_image(folder / name, still_for_test().left);
+    EXPECT_FALSE(find_views(folder / name)) << name;
+  }
   expect_error(ErrorKind::bad_input, "mono.png: holds one view", [&] { read_views(folder / "mono.png"); });
   expect_error(ErrorKind::bad_input, "missing.png: no such file", [&] { read_views(folder / "missing.png"); });
   write_image(folder / "line_sbs.png", Image<Rgb8>(1, 21));

@@ -37,8 +37,8 @@ class JpegReader : public PictureReader {
   explicit JpegReader(std::string_view bytes) : bytes_(bytes), failure_(jpeg_.err) {}
   ~JpegReader() override { jpeg_destroy_decompress(&jpeg_); }
 
-  bool open() {
-    if (!read_header()) return false;
+  bool open(int least_width) {
+    if (!read_header(least_width)) return false;
     describe();
     return true;
   }
@@ -79,7 +79,7 @@ class JpegReader : public PictureReader {
     return static_cast<std::size_t>(picture_.width) * static_cast<std::size_t>(picture_.height);
   }
 
-  bool read_header() {
+  bool read_header(int least_width) {
     if (setjmp(failure_.jump) != 0) return false;
     jpeg_create_decompress(&jpeg_);
     jpeg_mem_src(&jpeg_, reinterpret_cast<const unsigned char*>(bytes_.data()), bytes_.size());
@@ -91,6 +91,10 @@ class JpegReader : public PictureReader {
       jpeg_.out_color_space = JCS_CMYK;
     else
       jpeg_.out_color_space = jpeg_.num_components == 1 ? JCS_GRAYSCALE : JCS_RGB;
+    constexpr unsigned int smallest = 8;
+    while (jpeg_.scale_denom < smallest &&
+           jpeg_.image_width / (2 * jpeg_.scale_denom) >= static_cast<unsigned>(least_width))
+      jpeg_.scale_denom *= 2;
     jpeg_calc_output_dimensions(&jpeg_);
     return true;
   }
@@ -159,9 +163,9 @@ bool jpeg_is_whole(std::string_view bytes) {
   return false;
 }
 
-OpenedPicture open_jpeg_bytes(std::string_view bytes) {
+OpenedPicture open_jpeg_bytes(std::string_view bytes, int least_width) {
   auto reader = std::make_unique<JpegReader>(bytes);
-  if (!reader->open()) return {nullptr, reader->complaint()};
+  if (!reader->open(least_width)) return {nullptr, reader->complaint()};
   return {std::move(reader), {}};
 }
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace wheatstone::jpeg_test {
@@ -54,6 +55,30 @@ TEST(Jpeg, ComesBackNearlyAsItWas) {
     ASSERT_TRUE(opened.reader->read(7, 1, channels, row.data()));
     for (std::size_t i = 0; i < row.size(); ++i)
       EXPECT_NEAR(255 * row[i], pixels[7 * static_cast<std::size_t>(width * channels) + i], 4);
+  }
+}
+
+TEST(Jpeg, IsDecodedSmallWhereThatIsWideEnough) {
+  constexpr int width = 200, height = 104;
+  std::vector<std::uint8_t> pixels;
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) pixels.push_back(static_cast<std::uint8_t>(x + y / 2));
+  const EncodedPicture jpeg =
+      encode_jpeg(described(width, height, 1), {pixels.data(), bytes_kind, 0, height, width}, 95);
+  for (const auto& [least_width, divisor] :
+       {std::pair{201, 1}, {101, 1}, {100, 2}, {50, 4}, {26, 4}, {25, 8}, {1, 8}}) {
+    const OpenedPicture opened = open_jpeg_bytes(jpeg.bytes, least_width);
+    ASSERT_TRUE(opened.reader) << opened.complaint;
+    const StoredPicture& picture = opened.reader->picture();
+    EXPECT_EQ(picture.width, width / divisor) << least_width;
+    EXPECT_EQ(picture.height, height / divisor) << least_width;
+    std::vector<std::uint8_t> small(static_cast<std::size_t>(picture.width * picture.height));
+    ASSERT_TRUE(opened.reader->read(small.data()));
+    for (int y = 0; y < picture.height; ++y)
+      for (int x = 0; x < picture.width; ++x) {
+        const double mean = (x + 0.5 + (y + 0.5) / 2) * divisor - 0.75;
+        EXPECT_NEAR(small[static_cast<std::size_t>(y * picture.width + x)], mean, 4) << x << " " << y;
+      }
   }
 }
 

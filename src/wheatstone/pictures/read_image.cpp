@@ -179,6 +179,10 @@ Image<Rgb8> decode_jpeg(std::string_view bytes, const fs::path& path) {
   return read_opened(path, open_jpeg(bytes, path));
 }
 
+Image<Rgb8> decode_small_jpeg(std::string_view bytes, const fs::path& path, int least_width) {
+  return read_opened(path, open_jpeg(bytes, path, least_width));
+}
+
 ImageDescription describe_image(const std::filesystem::path& path) {
   const OpenPicture open = open_picture(path);
   const StoredPicture& picture = open.reader->picture();
