@@ -5,13 +5,15 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <optional>
 
 #include "temporary_folder.h"
 #include "wheatstone/app/film_plan.h"
 #include "wheatstone/app/pack_film.h"
 #include "wheatstone/app/rotoscope_film.h"
 #include "wheatstone/files/whole_file.h"
-#include "wheatstone/pictures/picture_file.h"
+#include "wheatstone/pictures/read_image.h"
+#include "wheatstone/pictures/write_image.h"
 #include "wheatstone/stereo/packed_pair.h"
 #include "wheatstone/video/segmented_film.h"
 
@@ -70,8 +72,8 @@ void paint(const fs::path& source, const fs::path& output, const RotoscopeFilmOp
 }
 
 /// The codes of ten bits that many pixels of the last frame's left eye have.
-std::vector<int> codes_in(const fs::path& path) {
-  StereoFilmReader film = open_stereo_film(path, {}, {.deep = true});
+std::vector<int> codes_in(const fs::path& path, std::optional<StereoLayout> layout = {}) {
+  StereoFilmReader film = open_stereo_film(path, layout, {.deep = true});
   StereoFrame frame;
   while (film.read(frame)) continue;
   std::map<int, int> pixels;
@@ -105,15 +107,21 @@ TEST(DeepFilm, PaintedRampHasNoStepThatEightBitsWouldMake) {
   EXPECT_LE(codes_in(folder / "flat.mkv").size(), 5u);
 }
 
+TEST(DeepFilm, IsWrittenAsNumberedPicturesOfSixteenBitsAndNoOtherFilmIs) {
+  const TemporaryFolder folder;
+  make_ramp(folder / "ramp.mkv");
+  RotoscopeFilmOptions options = options_of("h264", "");
+  paint(folder / "ramp.mkv", folder / "deep_%d.png", options);
+  EXPECT_EQ(codes_in(folder / "deep_%d.png", StereoLayout::left_right), expected_codes());
+  options.reading.deep = false;
+  paint(folder / "ramp.mkv", folder / "flat_%d.png", options);
+  EXPECT_TRUE(read_deep_image(folder / "flat_1.png").empty());
+}
+
 TEST(DeepFilm, IsReadFromNumberedPicturesOfSixteenBits) {
   const TemporaryFolder folder;
   const Image<Rgb16> eyes = put_together(ramp(), ramp(), StereoLayout::left_right);
-  const PixelRows rows{eyes.pixels().data(), words_kind, 0, eyes.height(),
-                       static_cast<std::ptrdiff_t>(sizeof(Rgb16)) * eyes.width()};
-  StoredPicture stored{eyes.width(), eyes.height(), 3};
-  stored.kind = words_kind;
-  const std::string png = encode_picture("ramp.png", stored, rows);
-  for (const char* name : {"ramp_1.png", "ramp_2.png"}) write_whole_file(folder / name, png);
+  for (const char* name : {"ramp_1.png", "ramp_2.png"}) write_image(folder / name, eyes);
   StereoFilmReader film =
       open_stereo_film(folder / "ramp_%d.png", StereoLayout::left_right, {.sequence_rate = {24, 1}, .deep = true});
   rotoscope_film(film, folder / "deep.mkv", options_of("ffv1", "gbrp16le"));

@@ -318,8 +318,12 @@ Image<std::uint8_t> detail_of(const FrameTask& task, const FrameAtWork& frame, b
   return detail;
 }
 
+bool is_drawn_deep(const RotoscopeOptions& options, ImageView<const Rgb16> left_deep) {
+  return options.deep && !left_deep.empty();
+}
+
 /// Shows the frame on the display, to other eyes than the film's own, or to these, over their pictures.
-FrameShowing showing_of(const FrameTask& task, const TwoEyes& eyes, const SceneDepth& depth) {
+FrameShowing showing_of(const FrameTask& task, const TwoEyes& eyes, const SceneDepth& depth, bool deep) {
   const RotoscopeOptions& options = task.options;
   const StereoPair& whole = task.whole;
   if (options.display)
@@ -331,7 +335,7 @@ FrameShowing showing_of(const FrameTask& task, const TwoEyes& eyes, const SceneD
     if (!one_eye) showing.backgrounds.push_back(whole.right);
   }
   showing.presentation.device = options.device;
-  showing.presentation.deep = options.deep && options.device == Device::processor;
+  showing.presentation.deep = deep && options.device == Device::processor;
   return showing;
 }
 
@@ -347,7 +351,8 @@ PlannedFrame plan_marks(const FilmFrame& frame, const FrameTask& task, const Two
     return planned;
   }
   if (!are_own_eyes(options, eyes)) return plan_frame(frame, style, options.carrying, memory, task.progress);
-  return plan_for_eyes(frame, style, options.carrying, memory, task.progress, options.device, options.deep);
+  return plan_for_eyes(frame, style, options.carrying, memory, task.progress, options.device,
+                       is_drawn_deep(options, frame.left_deep));
 }
 
 /// The mask as the scene's frames are rectified, whose colours do not matter.
@@ -466,7 +471,7 @@ PlannedFilmFrame plan_film_frame(const StereoPair& photographed, const Rotoscope
     result.counts = planned.counts;
     result.drawn = std::move(planned.drawn);
   }
-  result.showing = showing_of(task, result.eyes, state.depth);
+  result.showing = showing_of(task, result.eyes, state.depth, is_drawn_deep(options, left_deep));
   if (mask != nullptr) plan_outside(to_paint, task, *mask, frame, state, result);
   accumulate_statistics(options, state, result);
 

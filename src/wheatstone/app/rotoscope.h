@@ -56,8 +56,8 @@ struct RotoscopeOptions {
   CentralMerge central = CentralMerge::visible;
   CarryOptions carrying;
   std::optional<FilmDisplay> display;  ///< what frames are drawn for; none: for two eyes
-  /// Frames for two eyes, or of one, are also drawn with 16 bits a channel, if the processor draws them and they are
-  /// painted all over.
+  /// Frames for two eyes, or of one, that come with 16 bits a channel are also drawn with 16, if the processor draws
+  /// them and they are painted all over.
   bool deep = false;
   Device device = Device::processor;  ///< what draws them; where it is automatic and fails, the processor does
   DisparityFromDepthOptions depth;    ///< of the frames of one eye whose depth is known

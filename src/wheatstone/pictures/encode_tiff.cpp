@@ -46,7 +46,7 @@ EncodedPicture encode_tiff(const StoredPicture& picture, const PixelRows& rows) 
   TIFFSetField(tiff.get(), TIFFTAG_IMAGEWIDTH, picture.width);
   TIFFSetField(tiff.get(), TIFFTAG_IMAGELENGTH, picture.height);
   TIFFSetField(tiff.get(), TIFFTAG_SAMPLESPERPIXEL, picture.channels);
-  TIFFSetField(tiff.get(), TIFFTAG_BITSPERSAMPLE, 8);
+  TIFFSetField(tiff.get(), TIFFTAG_BITSPERSAMPLE, rows.kind.bits);
   TIFFSetField(tiff.get(), TIFFTAG_PHOTOMETRIC, picture.channels == 1 ? PHOTOMETRIC_MINISBLACK : PHOTOMETRIC_RGB);
   TIFFSetField(tiff.get(), TIFFTAG_PLANARCONFIG, PLANARCONFIG_CONTIG);
   TIFFSetField(tiff.get(), TIFFTAG_ORIENTATION, ORIENTATION_TOPLEFT);

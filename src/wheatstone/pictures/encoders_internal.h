@@ -14,8 +14,8 @@ inline constexpr std::string_view png_text = "png:text:";
 /// where the attribute oiio:ColorSpace says so. Made in parallel; the same bytes on any number of threads.
 std::string encode_png(const StoredPicture& picture, const PixelRows& rows);
 
-/// A picture of one channel, grey, or three, with bytes, as a TIFF, deflated. Takes the attributes ImageDescription,
-/// DateTime, and XResolution in pixels an inch.
+/// A picture of one channel, grey, or three, with bytes or words, as a TIFF, deflated. Takes the attributes
+/// ImageDescription, DateTime, and XResolution in pixels an inch.
 EncodedPicture encode_tiff(const StoredPicture& picture, const PixelRows& rows);
 
 /// A picture of three channels with bytes as a WebP of the best quality that loses something; its sides have at most

@@ -23,8 +23,8 @@ struct OpenPicture {
 /// file has it so. Throws Error as read_image.
 OpenPicture open_picture(const std::filesystem::path& path);
 
-/// The same of a JPEG in memory, as it stands among others in a file; `path` stands for it in messages. `least_width` as
-/// of open_jpeg_bytes.
+/// The same of a JPEG in memory, as it stands among others in a file; `path` stands for it in messages. `least_width`
+/// as of open_jpeg_bytes.
 OpenPicture open_jpeg(std::string_view bytes, const std::filesystem::path& path,
                       int least_width = std::numeric_limits<int>::max());
 

@@ -76,9 +76,9 @@ std::string encode_picture(const std::filesystem::path& path, const StoredPictur
     constexpr int usual_quality = 95;
     return whole(path, encode_jpeg(picture, rows, picture.value_of("jpeg:quality", usual_quality)));
   }
-  const bool of_bytes = rows.kind == bytes_kind;
-  if (of_bytes && (ending == ".tif" || ending == ".tiff")) return whole(path, encode_tiff(picture, rows));
-  if (of_bytes && picture.channels == 3 && ending == ".webp") return whole(path, encode_webp(picture, rows));
+  if (!rows.kind.is_float && (ending == ".tif" || ending == ".tiff")) return whole(path, encode_tiff(picture, rows));
+  if (rows.kind == bytes_kind && picture.channels == 3 && ending == ".webp")
+    return whole(path, encode_webp(picture, rows));
   std::vector<unsigned char> bytes;
   const std::unique_ptr<PictureWriter> writer = picture_writer(ending, bytes);
   if (!writer->begin({&picture, 1}) || !writer->write(rows) || !writer->end())
@@ -87,6 +87,7 @@ std::string encode_picture(const std::filesystem::path& path, const StoredPictur
 }
 
 PixelRows rows_of(ImageView<const Rgb8> image) { return all_rows(image, bytes_kind); }
+PixelRows rows_of(ImageView<const Rgb16> image) { return all_rows(image, words_kind); }
 PixelRows rows_of(ImageView<const std::uint8_t> image) { return all_rows(image, bytes_kind); }
 PixelRows rows_of(ImageView<const float> image) { return all_rows(image, floats_kind); }
 

@@ -132,12 +132,13 @@ struct EncodedPicture {
 };
 
 /// The bytes of a file with one picture, in the format of the ending of `path`, which is for messages, too: many
-/// encoders do not notice that a disk is full. PNG, JPEG, and TIFF and WebP of bytes are made without OpenImageIO.
+/// encoders do not notice that a disk is full. PNG, JPEG, TIFF of integers and WebP are made without OpenImageIO.
 /// Throws Error{cannot_read_write}.
 std::string encode_picture(const std::filesystem::path& path, const StoredPicture& picture, const PixelRows& rows);
 
 /// All rows of an image.
 PixelRows rows_of(ImageView<const Rgb8> image);
+PixelRows rows_of(ImageView<const Rgb16> image);
 PixelRows rows_of(ImageView<const std::uint8_t> image);
 PixelRows rows_of(ImageView<const float> image);
 

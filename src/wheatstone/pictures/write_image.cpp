@@ -36,9 +36,12 @@ void write_encoded(const fs::path& path, ImageView<const Pixel> image, const Pic
     throw Error(ErrorKind::wrong_usage, fmt::format("{}: unknown picture format, expected a name that ends in {}",
                                                     path.string(), fmt::join(picture_endings(), ", ")));
   const std::string ending = ending_of(path);
-  StoredPicture picture = described(image.width(), image.height(), sizeof(Pixel));
+  const PixelRows rows = rows_of(image);
+  StoredPicture picture =
+      described(image.width(), image.height(), static_cast<int>(8 * sizeof(Pixel)) / rows.kind.bits);
+  picture.kind = rows.kind;
   if (ending == ".tif" || ending == ".tiff") put_tiff_notes(picture, notes);
-  write_whole_file(path, with_notes(encode_picture(path, picture, rows_of(image)), notes));
+  write_whole_file(path, with_notes(encode_picture(path, picture, rows), notes));
 }
 
 }  // namespace
@@ -68,5 +71,17 @@ void write_image(const fs::path& path, ImageView<const Rgb8> image, const Pictur
 }
 
 void write_image(const fs::path& path, ImageView<const std::uint8_t> image) { write_encoded(path, image, {}); }
+
+void write_image(const fs::path& path, ImageView<const Rgb16> image) {
+  if (!takes_sixteen_bits(path))
+    throw Error(ErrorKind::wrong_usage,
+                fmt::format("{}: expected a PNG or a TIFF, which keep 16 bits a channel", path.string()));
+  write_encoded(path, image, {});
+}
+
+bool takes_sixteen_bits(const fs::path& path) {
+  const std::string ending = ending_of(path);
+  return ending == ".png" || ending == ".tif" || ending == ".tiff";
+}
 
 }  // namespace wheatstone

@@ -21,6 +21,11 @@ bool is_picture_name(const std::filesystem::path& path);
 /// behind. JPEG and PNG take all notes, TIFF the title, the time and the pixels an inch, the others none.
 void write_image(const std::filesystem::path& path, ImageView<const Rgb8> image, const PictureNotes& notes = {});
 void write_image(const std::filesystem::path& path, ImageView<const std::uint8_t> image);
+/// The same with 16 bits a channel; only where takes_sixteen_bits.
+void write_image(const std::filesystem::path& path, ImageView<const Rgb16> image);
+
+/// Whether a picture of this name is one of a format that keeps 16 bits a channel: PNG or TIFF.
+bool takes_sixteen_bits(const std::filesystem::path& path);
 
 /// The picture as a PNG. Throws Error{cannot_read_write}.
 std::string encode_png(ImageView<const Rgb8> image);

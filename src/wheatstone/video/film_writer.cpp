@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "wheatstone/error.h"
+#include "wheatstone/pictures/write_image.h"
 #include "wheatstone/video/film_file_internal.h"
 #include "wheatstone/video/frame_steps_internal.h"
 #include "wheatstone/video/sequence_file_internal.h"
@@ -17,7 +18,8 @@
 namespace wheatstone {
 
 bool writes_deep(const std::filesystem::path& path, const FilmWriterOptions& options) {
-  return frame_pattern(path) ? path.extension() == ".exr" : is_deep(pixel_format_of(options));
+  if (frame_pattern(path)) return path.extension() == ".exr" || takes_sixteen_bits(path);
+  return is_deep(pixel_format_of(options));
 }
 
 struct FilmWriter::Implementation {

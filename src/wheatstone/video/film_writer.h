@@ -39,7 +39,7 @@ struct FilmWriterOptions {
 std::span<const std::string_view> film_codecs();
 
 /// Whether frames of a film at `path` are written with more than 8 bits a channel, if they have them: by the codec's
-/// pixels, or as OpenEXR.
+/// pixels, or as numbered pictures in OpenEXR, PNG or TIFF.
 bool writes_deep(const std::filesystem::path& path, const FilmWriterOptions& options);
 
 /// What of the audio and subtitles of `options.side_streams_from` a film at `path` would leave out because its

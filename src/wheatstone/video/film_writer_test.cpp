@@ -14,8 +14,10 @@
 #include "scenes/moving_picture.h"
 #include "throws_error.h"
 #include "wheatstone/pictures/multiview_exr.h"
+#include "wheatstone/pictures/read_image.h"
 #include "wheatstone/stereo/packed_pair.h"
 #include "wheatstone/stereo/stereo_layout.h"
+#include "wheatstone/video/frame_sequence.h"
 #include "wheatstone/video/libav_internal.h"
 #include "wheatstone/video/segmented_film.h"
 #include "wheatstone/video/video_codings_internal.h"
@@ -124,7 +126,8 @@ TEST(FilmWriter, TenBitsComeBackFromEveryCodecThatHasThem) {
   make_film(folder / "b.mkv", 1, {.codec = "ffv1"});
   EXPECT_TRUE(frames_of(folder / "b.mkv", {.deep = true})[0].deep.empty());
   EXPECT_FALSE(writes_deep(folder / "b.mkv", {}));
-  EXPECT_FALSE(writes_deep(folder / "b_%04d.png", {.codec = "hevc-10"}));
+  EXPECT_TRUE(writes_deep(folder / "b_%04d.png", {}));
+  EXPECT_FALSE(writes_deep(folder / "b_%04d.jpg", {.codec = "hevc-10"}));
 }
 
 TEST(FilmWriter, OpenExrOfTwoEyesKeepsMoreThanEightBits) {
@@ -141,6 +144,29 @@ TEST(FilmWriter, OpenExrOfTwoEyesKeepsMoreThanEightBits) {
   for (std::size_t i = 0; i < ramp.deep.pixels().size(); ++i)
     ASSERT_NEAR(read[0].deep.pixels()[i].r, ramp.deep.pixels()[i].r, 16) << i;
   EXPECT_LE(largest_difference(read[0].picture, ramp.picture), 1);
+}
+
+TEST(FilmWriter, NumberedPicturesHaveTheBitsOfTheirFrames) {
+  const TemporaryFolder folder;
+  const Frame ramp = ramp_of_ten_bits();
+  Frame flat = ramp;
+  flat.deep = {};
+  for (const char* name : {"a_%d.png", "a_%d.tif"}) {
+    for (const Frame& frame : {ramp, flat}) {
+      SegmentedFilm writer(folder / name, {}, {});
+      writer.write(frame);
+      writer.finish();
+      const fs::path file = frame_pattern(folder / name)->file(1);
+      EXPECT_EQ(describe_image(file).bits, frame.deep.empty() ? 8 : 16) << name;
+      EXPECT_EQ(read_deep_image(file), frame.deep) << name;
+      EXPECT_TRUE(!frame.deep.empty() || read_image(file) == frame.picture) << name;
+      fs::remove(file);
+    }
+  }
+  SegmentedFilm writer(folder / "b_%d.webp", {}, {});
+  writer.write(ramp);
+  writer.finish();
+  EXPECT_EQ(describe_image(folder / "b_1.webp").bits, 8);
 }
 
 TEST(FilmWriter, EveryCodecKeepsTheShapeOfPixelsAndTheRate) {

@@ -41,7 +41,10 @@ SequenceFile::~SequenceFile() {
 
 void SequenceFile::add(const Frame& frame) {
   const fs::path file = hidden_.file(++count_);
-  if (file.extension() != ".exr") return write_image(file, frame.picture);
+  if (file.extension() != ".exr") {
+    if (frame.deep.empty() || !takes_sixteen_bits(file)) return write_image(file, frame.picture);
+    return write_image(file, frame.deep);
+  }
   const auto write_exr = [&](const auto& picture) {
     if (!is_packed(layout_)) return write_picture_exr(file, picture);
     auto [left, right] = cut_apart(picture, layout_, file.string());
