@@ -42,15 +42,15 @@ Image<float> corrections_among(const Image<float>& by_hand, const Image<float>& 
 
 }  // namespace
 
-StereoGeometry corrected(StereoGeometry found, const std::filesystem::path& by_hand, PictureSize frame,
-                         const Flow& to_before, Image<float>& corrections) {
-  Image<float>& left = found.left_disparity;
+std::optional<StereoGeometry> corrected(const Image<float>& found, const std::filesystem::path& by_hand,
+                                        PictureSize frame, const Flow& to_before, Image<float>& corrections) {
   if (!by_hand.empty()) {
-    corrections = corrections_among(read_frame_disparity(by_hand, frame), left);
+    corrections = corrections_among(read_frame_disparity(by_hand, frame), found);
   } else if (!corrections.empty()) {
-    corrections = expected_disparity(corrections, to_before, left.width(), left.height());
+    corrections = expected_disparity(corrections, to_before, found.width(), found.height());
   }
-  if (corrections.empty()) return found;
+  if (corrections.empty()) return {};
+  Image<float> left = found;
   for (int y = 0; y < left.height(); ++y)
     for (int x = 0; x < left.width(); ++x)
       if (std::isfinite(corrections(x, y))) left(x, y) = corrections(x, y);

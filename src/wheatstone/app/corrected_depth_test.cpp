@@ -3,13 +3,16 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <variant>
 
 #include "scenes/moving_picture.h"
 #include "temporary_folder.h"
 #include "throws_error.h"
 #include "wheatstone/app/rotoscope.h"
 #include "wheatstone/pictures/disparity_file.h"
+#include "wheatstone/random.h"
 
 namespace wheatstone::corrected_depth_test {
 
@@ -77,6 +80,51 @@ TEST_P(CorrectedDepth, OfASceneEndsWithIt) {
   plan_film_frame(eyes_of_frame(1), options_, state_);
   EXPECT_TRUE(state_.corrected_disparity.empty());
   EXPECT_NEAR(disparity_at((left_px + right_px) / 2 + step_px), disparity_px, 0.5);
+}
+
+/// What the eyes see of a red board before a blue wall.
+StereoPair board_before_wall(int board_px) {
+  constexpr int first = 100, end = 160;
+  StereoPair eyes{Image<Rgb8>(width, height), Image<Rgb8>(width, height)};
+  const auto draw = [&](Image<Rgb8>& eye, int of_board, int of_wall) {
+    for (int y = 0; y < height; ++y)
+      for (int x = 0; x < width; ++x) {
+        const bool is_board = x + of_board >= first && x + of_board < end;
+        const int column = (x + (is_board ? of_board : of_wall)) / 4;
+        const auto texture =
+            static_cast<std::uint8_t>(hash_keys({static_cast<unsigned>(column), static_cast<unsigned>(y) / 4u}) % 80);
+        eye(x, y) = is_board ? Rgb8{200, texture, 20} : Rgb8{20, texture, 200};
+      }
+  };
+  draw(eyes.left, 0, 0);
+  draw(eyes.right, board_px, disparity_px);
+  return eyes;
+}
+
+/// The middle column of what is red.
+double middle_of_board(const Image<Rgb8>& eye) {
+  double sum = 0, count = 0;
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x)
+      if (eye(x, y).r > eye(x, y).b) sum += x, ++count;
+  return sum / count;
+}
+
+TEST_P(CorrectedDepth, MovesAThingInTheRightEye) {
+  constexpr int found_px = 8, put_px = 14;
+  const StereoPair eyes = board_before_wall(found_px), wanted = board_before_wall(put_px);
+  Image<float> by_hand(width, height, std::numeric_limits<float>::quiet_NaN());
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x)
+      if (eyes.left(x, y).r > eyes.left(x, y).b) by_hand(x, y) = put_px;
+  write_disparity(file_, by_hand);
+  for (int i = 0; i < 2; ++i) {
+    options_.maps.disparity = i == 0 ? file_ : std::filesystem::path();
+    const RotoscopedFrame frame = rotoscope_frame(eyes, options_, state_);
+    const auto& painted = std::get<StereoPair>(frame.pictures);
+    EXPECT_NEAR(middle_of_board(painted.left), middle_of_board(wanted.left), 1.5) << i;
+    EXPECT_NEAR(middle_of_board(painted.right), middle_of_board(wanted.right), 1.5) << i;
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(AtWholeAndHalfSize, CorrectedDepth, testing::Bool());

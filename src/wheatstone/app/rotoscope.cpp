@@ -21,6 +21,7 @@
 #include "wheatstone/painting/plan_for_eyes.h"
 #include "wheatstone/painting/still_scene.h"
 #include "wheatstone/stereo/geometry_from_disparity.h"
+#include "wheatstone/stereo/retouched_right.h"
 #include "wheatstone/stereo/view.h"
 #include "wheatstone/stopwatch.h"
 
@@ -41,6 +42,7 @@ struct FrameTask {
 
 /// A frame as it is painted from.
 struct FrameAtWork {
+  std::optional<StereoPair> retouched = {};  ///< what the eyes see if a depth corrected by hand moves things there
   StereoGeometry geometry;
   CentralView centre;
   std::vector<View> views;
@@ -245,20 +247,34 @@ FlowPair find_flow(const FrameAtWork& frame, const FrameTask& task, const Rotosc
                        {options.flow, start, size, options.flow_model, options.flow_model_values});
 }
 
+/// The pictures that the frame is painted from.
+const StereoPair& eyes_of(const FrameTask& task, const FrameAtWork& frame) {
+  return frame.retouched ? *frame.retouched : task.eyes;
+}
+
+/// Takes what was corrected by hand into the geometry that was found.
+void correct_depth(const FrameTask& task, RotoscopeState& state, FrameAtWork& frame) {
+  std::optional<StereoGeometry> by_hand =
+      corrected(frame.geometry.left_disparity, task.options.maps.disparity,
+                {task.whole.left.width(), task.whole.left.height()}, task.to_before, state.corrected_disparity);
+  if (!by_hand) return;
+  Image<Rgb8> right = retouched_right(task.eyes, frame.geometry, *by_hand);
+  if (!right.empty()) frame.retouched = {task.eyes.left, std::move(right)};
+  frame.geometry = std::move(*by_hand);
+}
+
 FrameAtWork look_at(const FrameTask& task, RotoscopeState& state, RotoscopeTimes& times) {
   const StereoPair& eyes = task.eyes;
   if (eyes.right.empty()) return single_view(eyes);
   FrameAtWork frame;
   {
     const Stopwatch watch(times.matching_s);
-    frame.geometry = task.known != nullptr ? task.known->geometry
-                                           : corrected(find_geometry(task, state), task.options.maps.disparity,
-                                                       {task.whole.left.width(), task.whole.left.height()},
-                                                       task.to_before, state.corrected_disparity);
+    frame.geometry = task.known != nullptr ? task.known->geometry : find_geometry(task, state);
+    if (task.known == nullptr) correct_depth(task, state, frame);
   }
   report(task.progress, "central view", 0);
   const Stopwatch watch(times.central_s);
-  frame.centre = make_central_view(eyes, frame.geometry, task.options.central);
+  frame.centre = make_central_view(eyes_of(task, frame), frame.geometry, task.options.central);
   return frame;
 }
 
@@ -285,7 +301,7 @@ void find_views(const FrameTask& task, bool scene_begins, RotoscopeState& state,
     frame.views = {{frame.centre.picture, frame.centre.disparity, {}, central_view}};
     return;
   }
-  frame.views = scene_from_centre(frame.centre, task.eyes, frame.geometry);
+  frame.views = scene_from_centre(frame.centre, eyes_of(task, frame), frame.geometry);
   const auto reduction = static_cast<float>(task.reduction);
   if (task.options.display || has_own_eyes(task.options)) {
     const DepthEnds ends = depth_ends(frame.centre.disparity);
@@ -295,7 +311,7 @@ void find_views(const FrameTask& task, bool scene_begins, RotoscopeState& state,
   const ViewRange wanted =
       planned_views({task.whole.left.width(), task.whole.left.height()}, state.depth, display_of(task.options).views);
   const std::vector<View> outer =
-      make_outer_views(task.eyes, frame.geometry, wanted, state.depth.first.middle_px() / reduction);
+      make_outer_views(eyes_of(task, frame), frame.geometry, wanted, state.depth.first.middle_px() / reduction);
   frame.views.insert(frame.views.end(), outer.begin(), outer.end());
 }
 
