@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <limits>
 #include <string_view>
@@ -24,6 +23,7 @@
 #include "wheatstone/photograph/write_views.h"
 #include "wheatstone/pictures/disparity_file.h"
 #include "wheatstone/pictures/multiview_exr.h"
+#include "wheatstone/pictures/picture_file.h"
 #include "wheatstone/pictures/write_image.h"
 #include "wheatstone/stereo/stereo_layout.h"
 #include "wheatstone/video/film_files.h"
@@ -33,12 +33,6 @@ namespace wheatstone::cli {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string ending_of(const fs::path& path) {
-  std::string ending = path.extension().string();
-  std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return ending;
-}
 
 std::string all_names() {
   std::string names;

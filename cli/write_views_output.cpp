@@ -4,28 +4,17 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 
 #include "wheatstone/app/output_folder.h"
 #include "wheatstone/files/output_paths.h"
 #include "wheatstone/pictures/write_image.h"
 
 namespace wheatstone::cli {
-namespace {
-
-bool is_picture(const std::filesystem::path& path) {
-  constexpr const char* endings[] = {".png", ".jpg", ".jpeg", ".tif", ".tiff", ".webp", ".ppm", ".bmp"};
-  std::string ending = path.extension().string();
-  std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return std::ranges::find(endings, ending) != std::end(endings);
-}
-
-}  // namespace
 
 std::vector<std::filesystem::path> pictures_in_folder(const std::filesystem::path& folder) {
   std::vector<std::filesystem::path> files;
   for (const std::filesystem::directory_entry& entry : std::filesystem::directory_iterator(folder))
-    if (entry.is_regular_file() && is_picture(entry.path())) files.push_back(entry.path());
+    if (entry.is_regular_file() && is_picture_name(entry.path())) files.push_back(entry.path());
   std::ranges::sort(files);
   return files;
 }

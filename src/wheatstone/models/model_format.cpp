@@ -13,6 +13,7 @@
 
 #include "wheatstone/error.h"
 #include "wheatstone/models/read_model.h"
+#include "wheatstone/pictures/picture_file.h"
 
 namespace wheatstone {
 namespace {
@@ -101,8 +102,7 @@ constexpr std::array formats{
 };
 
 const KnownFormat* format_of_name(const std::filesystem::path& path) {
-  std::string ending = path.extension().string();
-  std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string ending = ending_of(path);
   const auto* const found = std::ranges::find_if(formats, [&](const KnownFormat& f) {
     return f.has_own_ending && ending.substr(0, 1) == "." && ending.substr(1) == f.format.ending;
   });

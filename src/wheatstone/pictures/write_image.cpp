@@ -35,11 +35,11 @@ void write_encoded(const fs::path& path, ImageView<const Pixel> image, const Pic
   if (!is_picture_name(path))
     throw Error(ErrorKind::wrong_usage, fmt::format("{}: unknown picture format, expected a name that ends in {}",
                                                     path.string(), fmt::join(picture_endings(), ", ")));
-  const std::string ending = ending_of(path);
   const PixelRows rows = rows_of(image);
   StoredPicture picture =
       described(image.width(), image.height(), static_cast<int>(8 * sizeof(Pixel)) / rows.kind.bits);
   picture.kind = rows.kind;
+  const std::string ending = ending_of(path);
   if (ending == ".tif" || ending == ".tiff") put_tiff_notes(picture, notes);
   write_whole_file(path, with_notes(encode_picture(path, picture, rows), notes));
 }

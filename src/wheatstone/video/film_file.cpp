@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "wheatstone/error.h"
+#include "wheatstone/pictures/picture_file.h"
 #include "wheatstone/stereo/stereo_layout.h"
 #include "wheatstone/video/kept_metadata_internal.h"
 #include "wheatstone/video/stereo_metadata_internal.h"
@@ -20,12 +21,6 @@ namespace wheatstone {
 namespace {
 
 enum class Container { mp4, quicktime, matroska, webm, other };
-
-std::string ending_of(const std::filesystem::path& path) {
-  std::string ending = path.extension().string();
-  std::ranges::transform(ending, ending.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c; });
-  return ending;
-}
 
 Container container_of(const std::filesystem::path& path) {
   const std::string ending = ending_of(path);

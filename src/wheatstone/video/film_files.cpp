@@ -3,13 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <filesystem>
 #include <iterator>
 #include <set>
 
 #include "wheatstone/error.h"
+#include "wheatstone/pictures/picture_file.h"
+#include "wheatstone/pictures/write_image.h"
 #include "wheatstone/video/frame_sequence.h"
 
 namespace wheatstone {
@@ -17,12 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool is_picture(const fs::path& path) {
-  constexpr std::array endings{".png", ".jpg", ".jpeg", ".tif", ".tiff", ".webp", ".ppm", ".bmp", ".exr"};
-  std::string ending = path.extension().string();
-  std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return std::ranges::find(endings, ending) != endings.end();
-}
+bool is_picture(const fs::path& path) { return is_picture_name(path) || ending_of(path) == ".exr"; }
 
 /// "left_%04d.png" of "left_0012.png"; empty where the name has no number before its ending.
 std::string pattern_of(const fs::path& file) {
@@ -84,9 +80,7 @@ bool is_film(const std::filesystem::path& path) {
   constexpr const char* endings[] = {".mp4", ".m4v",  ".mov", ".mkv", ".mk3d", ".webm", ".avi",
                                      ".mpg", ".mpeg", ".m2v", ".ts",  ".m2ts", ".wmv",  ".flv",
                                      ".ogv", ".mxf",  ".nut", ".y4m", ".dv",   ".h264", ".hevc"};
-  std::string ending = path.extension().string();
-  std::ranges::transform(ending, ending.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c; });
-  return std::ranges::find(endings, ending) != std::end(endings) || frame_pattern(path).has_value();
+  return std::ranges::find(endings, ending_of(path)) != std::end(endings) || frame_pattern(path).has_value();
 }
 
 }  // namespace wheatstone
