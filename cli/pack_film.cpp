@@ -15,6 +15,7 @@
 #include "wheatstone/app/painted_film.h"
 #include "wheatstone/error.h"
 #include "wheatstone/files/output_paths.h"
+#include "wheatstone/pictures/write_image.h"
 #include "wheatstone/video/film_files.h"
 
 namespace wheatstone::cli {
@@ -73,7 +74,9 @@ Report run_pack_film(PackFilmArguments arguments, const Session& session) {
   }
   for (const fs::path& output : {fs::path(arguments.output), options.right_film})
     if (!output.empty()) check_not_an_input(output, std::array{film.film, film.right});
-  const FilmReaderOptions reading{.threads = session.threads, .deep = writes_deep(arguments.output, arguments.writing)};
+  const FilmReaderOptions reading{
+      .threads = session.threads,
+      .deep = writes_deep(arguments.output, arguments.writing) || takes_sixteen_bits(arguments.output)};
   StereoFilmReader source = open_film(film, reading);
   if (source.layout() == StereoLayout::mono && film.right.empty())
     throw Error(ErrorKind::bad_input,
@@ -82,7 +85,11 @@ Report run_pack_film(PackFilmArguments arguments, const Session& session) {
     remark(session, fmt::format("layout: {} ({})", layout_name(source.layout()), source.layout_how()));
   options.writing.layout = eyes.layout.value_or(StereoLayout::mono);
   write_as_source(film.film, source.facts(), reading, options.writing);
-  if (!eyes.anaglyph.empty()) keep_full_colour(options.writing);
+  if (eyes.anaglyph.empty()) {
+    keep_bits(source.facts(), arguments.output, options.writing);
+  } else {
+    keep_full_colour(options.writing);
+  }
   options.expected_frames = expected_frames(source.facts(), reading);
   const std::vector<std::string> left_out = side_streams_left_out(arguments.output, options.writing);
   if (!left_out.empty()) remark(session, fmt::format("wheatstone: {}", fmt::join(left_out, "; ")));

@@ -40,9 +40,10 @@ class CorrectedDepth : public testing::TestWithParam<bool> {
 
   /// The disparity in the middle row, in pixels of the film, in column `x` of its frame.
   float disparity_at(int x) const {
-    const Image<float>& found = state_.left_disparity_before;
-    const int scale = width / found.width();
-    return found(x / scale, found.height() / 2) * static_cast<float>(scale);
+    const Image<float>&found = state_.left_disparity_before, &corrected = state_.corrected_disparity;
+    const int scale = width / found.width(), column = x / scale, row = found.height() / 2;
+    const bool is_found = corrected.empty() || std::isnan(corrected(column, row));
+    return (is_found ? found(column, row) : corrected(column, row)) * static_cast<float>(scale);
   }
 
   const TemporaryFolder folder_;
@@ -82,8 +83,8 @@ TEST_P(CorrectedDepth, OfASceneEndsWithIt) {
   EXPECT_NEAR(disparity_at((left_px + right_px) / 2 + step_px), disparity_px, 0.5);
 }
 
-/// What the eyes see of a red board before a blue wall.
-StereoPair board_before_wall(int board_px) {
+/// What the eyes see of a red board, perhaps without texture, before a blue wall.
+StereoPair board_before_wall(int board_px, bool is_plain) {
   constexpr int first = 100, end = 160;
   StereoPair eyes{Image<Rgb8>(width, height), Image<Rgb8>(width, height)};
   const auto draw = [&](Image<Rgb8>& eye, int of_board, int of_wall) {
@@ -93,7 +94,8 @@ StereoPair board_before_wall(int board_px) {
         const int column = (x + (is_board ? of_board : of_wall)) / 4;
         const auto texture =
             static_cast<std::uint8_t>(hash_keys({static_cast<unsigned>(column), static_cast<unsigned>(y) / 4u}) % 80);
-        eye(x, y) = is_board ? Rgb8{200, texture, 20} : Rgb8{20, texture, 200};
+        const Rgb8 of_board_colour{200, is_plain ? std::uint8_t{40} : texture, 20};
+        eye(x, y) = is_board ? of_board_colour : Rgb8{20, texture, 200};
       }
   };
   draw(eyes.left, 0, 0);
@@ -112,19 +114,39 @@ double middle_of_board(const Image<Rgb8>& eye) {
 
 TEST_P(CorrectedDepth, MovesAThingInTheRightEye) {
   constexpr int found_px = 8, put_px = 14;
-  const StereoPair eyes = board_before_wall(found_px), wanted = board_before_wall(put_px);
+  for (const bool is_plain : {false, true}) {
+    state_ = {};
+    const StereoPair eyes = board_before_wall(found_px, is_plain), wanted = board_before_wall(put_px, is_plain);
+    Image<float> by_hand(width, height, std::numeric_limits<float>::quiet_NaN());
+    for (int y = 0; y < height; ++y)
+      for (int x = 0; x < width; ++x)
+        if (eyes.left(x, y).r > eyes.left(x, y).b) by_hand(x, y) = put_px;
+    write_disparity(file_, by_hand);
+    for (int i = 0; i < 4; ++i) {
+      options_.maps.disparity = i == 0 ? file_ : std::filesystem::path();
+      const RotoscopedFrame frame = rotoscope_frame(eyes, options_, state_);
+      const auto& painted = std::get<StereoPair>(frame.pictures);
+      EXPECT_NEAR(middle_of_board(painted.left), middle_of_board(wanted.left), 1.5) << i;
+      EXPECT_NEAR(middle_of_board(painted.right), middle_of_board(wanted.right), 1.5)
+          << i << (is_plain ? ", plain" : "");
+    }
+  }
+}
+
+// The photograph behind the paint moves as the paint does.
+TEST_P(CorrectedDepth, MovesAThingOutsideAMask) {
+  constexpr int found_px = 8, put_px = 14;
+  const StereoPair eyes = board_before_wall(found_px, false), wanted = board_before_wall(put_px, false);
   Image<float> by_hand(width, height, std::numeric_limits<float>::quiet_NaN());
+  FrameMask mask{Image<std::uint8_t>(width, height), {}};
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x)
       if (eyes.left(x, y).r > eyes.left(x, y).b) by_hand(x, y) = put_px;
   write_disparity(file_, by_hand);
-  for (int i = 0; i < 2; ++i) {
-    options_.maps.disparity = i == 0 ? file_ : std::filesystem::path();
-    const RotoscopedFrame frame = rotoscope_frame(eyes, options_, state_);
-    const auto& painted = std::get<StereoPair>(frame.pictures);
-    EXPECT_NEAR(middle_of_board(painted.left), middle_of_board(wanted.left), 1.5) << i;
-    EXPECT_NEAR(middle_of_board(painted.right), middle_of_board(wanted.right), 1.5) << i;
-  }
+  options_.maps.disparity = file_;
+  // Nothing is painted: all is the film.
+  const RotoscopedFrame frame = rotoscope_frame(eyes, options_, state_, nullptr, {}, &mask);
+  EXPECT_NEAR(middle_of_board(std::get<StereoPair>(frame.pictures).right), middle_of_board(wanted.right), 1);
 }
 
 INSTANTIATE_TEST_SUITE_P(AtWholeAndHalfSize, CorrectedDepth, testing::Bool());

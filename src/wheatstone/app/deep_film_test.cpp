@@ -110,10 +110,10 @@ TEST(DeepFilm, PaintedRampHasNoStepThatEightBitsWouldMake) {
 TEST(DeepFilm, IsWrittenAsNumberedPicturesOfSixteenBitsAndNoOtherFilmIs) {
   const TemporaryFolder folder;
   make_ramp(folder / "ramp.mkv");
-  RotoscopeFilmOptions options = options_of("h264", "");
+  RotoscopeFilmOptions options = options_of("h264", sixteen_bits);
   paint(folder / "ramp.mkv", folder / "deep_%d.png", options);
   EXPECT_EQ(codes_in(folder / "deep_%d.png", StereoLayout::left_right), expected_codes());
-  options.reading.deep = false;
+  options.writing.pixel_format.clear();
   paint(folder / "ramp.mkv", folder / "flat_%d.png", options);
   EXPECT_TRUE(read_deep_image(folder / "flat_1.png").empty());
 }

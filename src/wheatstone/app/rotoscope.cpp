@@ -43,6 +43,7 @@ struct FrameTask {
 /// A frame as it is painted from.
 struct FrameAtWork {
   std::optional<StereoPair> retouched = {};  ///< what the eyes see if a depth corrected by hand moves things there
+  Image<float> found_disparity = {};         ///< the left eye's, without what is corrected; empty where nothing is
   StereoGeometry geometry;
   CentralView centre;
   std::vector<View> views;
@@ -252,6 +253,11 @@ const StereoPair& eyes_of(const FrameTask& task, const FrameAtWork& frame) {
   return frame.retouched ? *frame.retouched : task.eyes;
 }
 
+/// The right eye's picture as the frame is drawn. Where it is planned at half the size, nothing is moved in it.
+const Image<Rgb8>& right_as_drawn(const FrameTask& task, const FrameAtWork& frame) {
+  return frame.retouched && task.reduction == 1 ? frame.retouched->right : task.whole.right;
+}
+
 /// Takes what was corrected by hand into the geometry that was found.
 void correct_depth(const FrameTask& task, RotoscopeState& state, FrameAtWork& frame) {
   std::optional<StereoGeometry> by_hand =
@@ -260,7 +266,7 @@ void correct_depth(const FrameTask& task, RotoscopeState& state, FrameAtWork& fr
   if (!by_hand) return;
   Image<Rgb8> right = retouched_right(task.eyes, frame.geometry, *by_hand);
   if (!right.empty()) frame.retouched = {task.eyes.left, std::move(right)};
-  frame.geometry = std::move(*by_hand);
+  frame.found_disparity = std::exchange(frame.geometry, std::move(*by_hand)).left_disparity;
 }
 
 FrameAtWork look_at(const FrameTask& task, RotoscopeState& state, RotoscopeTimes& times) {
@@ -339,7 +345,8 @@ bool is_drawn_deep(const RotoscopeOptions& options, ImageView<const Rgb16> left_
 }
 
 /// Shows the frame on the display, to other eyes than the film's own, or to these, over their pictures.
-FrameShowing showing_of(const FrameTask& task, const TwoEyes& eyes, const SceneDepth& depth, bool deep) {
+FrameShowing showing_of(const FrameTask& task, const FrameAtWork& frame, const TwoEyes& eyes, const SceneDepth& depth,
+                        bool deep) {
   const RotoscopeOptions& options = task.options;
   const StereoPair& whole = task.whole;
   if (options.display)
@@ -348,7 +355,7 @@ FrameShowing showing_of(const FrameTask& task, const TwoEyes& eyes, const SceneD
   FrameShowing showing{one_eye ? Presentation{.views = {central_view}} : for_two_eyes(eyes), {}};
   if (are_own_eyes(options, eyes) && options.style.background == Background::photograph) {
     showing.backgrounds.push_back(whole.left);
-    if (!one_eye) showing.backgrounds.push_back(whole.right);
+    if (!one_eye) showing.backgrounds.push_back(right_as_drawn(task, frame));
   }
   showing.presentation.device = options.device;
   showing.presentation.deep = deep && options.device == Device::processor;
@@ -392,7 +399,7 @@ ShownOutside outside_of(const FrameTask& task, FrameMask mask, const FrameAtWork
       outside.pictures.push_back(picture);
   };
   add(std::move(mask.left), whole.left);
-  if (!whole.right.empty()) add(std::move(mask.right), whole.right);
+  if (!whole.right.empty()) add(std::move(mask.right), right_as_drawn(task, frame));
   return outside;
 }
 
@@ -428,7 +435,8 @@ void remember(const Image<Rgb8>& left, FrameAtWork frame, RotoscopeState& state)
   ++state.frames;
   ++state.frames_of_scene;
   state.left_before = left;
-  state.left_disparity_before = std::move(frame.geometry.left_disparity);
+  state.left_disparity_before =
+      std::move(frame.found_disparity.empty() ? frame.geometry.left_disparity : frame.found_disparity);
   state.central_before = std::move(frame.centre.picture);
   state.central_disparity_before = std::move(frame.centre.disparity);
 }
@@ -487,7 +495,7 @@ PlannedFilmFrame plan_film_frame(const StereoPair& photographed, const Rotoscope
     result.counts = planned.counts;
     result.drawn = std::move(planned.drawn);
   }
-  result.showing = showing_of(task, result.eyes, state.depth, is_drawn_deep(options, left_deep));
+  result.showing = showing_of(task, frame, result.eyes, state.depth, is_drawn_deep(options, left_deep));
   if (mask != nullptr) plan_outside(to_paint, task, *mask, frame, state, result);
   accumulate_statistics(options, state, result);
 

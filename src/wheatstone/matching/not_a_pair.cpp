@@ -94,7 +94,8 @@ BlockAgreement block_agreement(ImageView<const Rgb8> a, ImageView<const Rgb8> b,
       found += block.move ? 1 : 0;
     }
   }
-  if (found < least_share * agreement.blocks) return agreement;
+  constexpr int enough_blocks = 12;
+  if (agreement.blocks >= enough_blocks && found < least_share * agreement.blocks) return agreement;
   for (int y = 0; y < rows; ++y)
     if (y % rows_a_look != 0) look_at_row(y);
 

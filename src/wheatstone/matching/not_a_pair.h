@@ -13,7 +13,7 @@ struct BlockAgreement {
 
 /// Compares blocks of small copies by normalised correlation, up to a third of the width sideways and a few rows up and
 /// down. Where a third of the rows shows that fewer than `least_share` of the blocks are found at all, the other rows
-/// are not looked at, and the share is 0.
+/// are not looked at, the share is 0, and `blocks` are those of the third.
 BlockAgreement block_agreement(ImageView<const Rgb8> a, ImageView<const Rgb8> b, double least_share);
 
 /// How well two pictures fit together as two views of one scene.

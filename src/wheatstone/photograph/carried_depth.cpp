@@ -99,9 +99,8 @@ CarriedDepth cut(const Image<Rgb8>& both) {
 /// Whether a first look at a JPEG shows a right half in colour, as most photographs have. A mean of 64 pixels has at
 /// most the mean of their colourfulness: where this is so, many of these pixels are far from grey.
 bool right_half_is_coloured(std::string_view bytes, const fs::path& path) {
-  constexpr int least_width = 400;
   constexpr double some = 0.25;
-  const Image<Rgb8> small = decode_small_jpeg(bytes, path, least_width);
+  const Image<Rgb8> small = decode_small_jpeg(bytes, path);
   return coloured_share(small, small.width() / 2, 3 * grey_tolerance, 1) > some;
 }
 

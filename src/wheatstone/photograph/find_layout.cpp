@@ -81,7 +81,7 @@ std::optional<StereoLayout> layout_from_name(const std::filesystem::path& path, 
 
 std::optional<Arrangement> arrangement_of_halves(ImageView<const Rgb8> picture) {
   // Pairs agree in over half of their blocks; the halves of one photograph in a fiftieth, of a chessboard in a ninth.
-  constexpr double least_share = 0.25;
+  constexpr double least_share = 0.25, looked_for = least_share / 2;
   constexpr int least_blocks = 12;
   const int half_width = picture.width() / 2, half_height = picture.height() / 2;
   if (half_width == 0 || half_height == 0) return {};
@@ -90,10 +90,10 @@ std::optional<Arrangement> arrangement_of_halves(ImageView<const Rgb8> picture) 
   };
   const BlockAgreement sideways =
       block_agreement(part(0, 0, half_width, picture.height()),
-                      part(picture.width() - half_width, 0, half_width, picture.height()), least_share);
+                      part(picture.width() - half_width, 0, half_width, picture.height()), looked_for);
   const BlockAgreement above =
       block_agreement(part(0, 0, picture.width(), half_height),
-                      part(0, picture.height() - half_height, picture.width(), half_height), least_share);
+                      part(0, picture.height() - half_height, picture.width(), half_height), looked_for);
   const bool side_by_side = sideways.share >= above.share;
   const BlockAgreement& better = side_by_side ? sideways : above;
   const BlockAgreement& worse = side_by_side ? above : sideways;

@@ -17,7 +17,7 @@ bool is_stereo_file_name(const std::filesystem::path& path);
 std::optional<StereoLayout> layout_from_name(const std::filesystem::path& path, int width, int height);
 
 /// Whether a picture's halves, next to or above each other, are two views of one scene; none where neither pair looks
-/// like one. A small copy, 400 pixels wide, shows it as well.
+/// like one. A small copy, as decode_small_jpeg gives it, shows it as well.
 std::optional<Arrangement> arrangement_of_halves(ImageView<const Rgb8> picture);
 
 /// What the picture itself shows: halves next to or above each other that are two views of one scene. The left eye's is

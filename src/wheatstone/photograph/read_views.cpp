@@ -199,10 +199,9 @@ std::optional<KnownLayout> told_layout(std::string_view bytes, const fs::path& p
 
 /// Whether a first look at a JPEG shows that it holds one view, as most photographs do.
 bool holds_one_view(std::string_view bytes, const fs::path& path, const ReadViewsOptions& options) {
-  if (!is_jpeg(bytes)) return false;
-  constexpr int least_width = 400;
-  const Image<Rgb8> small = decode_small_jpeg(bytes, path, least_width);
-  return !told_layout(bytes, path, small.width(), small.height(), options) && !arrangement_of_halves(small);
+  // The size only tells whether views are squeezed.
+  if (!is_jpeg(bytes) || told_layout(bytes, path, 1, 1, options)) return false;
+  return !arrangement_of_halves(decode_small_jpeg(bytes, path));
 }
 
 /// Takes out the columns between the two pictures of a PNG with the chunk sTER: the right one begins at a column that

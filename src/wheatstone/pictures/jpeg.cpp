@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <csetjmp>
 #include <cstddef>
 #include <cstdio>
@@ -37,8 +38,8 @@ class JpegReader : public PictureReader {
   explicit JpegReader(std::string_view bytes) : bytes_(bytes), failure_(jpeg_.err) {}
   ~JpegReader() override { jpeg_destroy_decompress(&jpeg_); }
 
-  bool open(int least_width) {
-    if (!read_header(least_width)) return false;
+  bool open(int least_side) {
+    if (!read_header(least_side)) return false;
     describe();
     return true;
   }
@@ -79,7 +80,7 @@ class JpegReader : public PictureReader {
     return static_cast<std::size_t>(picture_.width) * static_cast<std::size_t>(picture_.height);
   }
 
-  bool read_header(int least_width) {
+  bool read_header(int least_side) {
     if (setjmp(failure_.jump) != 0) return false;
     jpeg_create_decompress(&jpeg_);
     jpeg_mem_src(&jpeg_, reinterpret_cast<const unsigned char*>(bytes_.data()), bytes_.size());
@@ -92,8 +93,9 @@ class JpegReader : public PictureReader {
     else
       jpeg_.out_color_space = jpeg_.num_components == 1 ? JCS_GRAYSCALE : JCS_RGB;
     constexpr unsigned int smallest = 8;
-    while (jpeg_.scale_denom < smallest &&
-           jpeg_.image_width / (2 * jpeg_.scale_denom) >= static_cast<unsigned>(least_width))
+    const unsigned int shorter = std::min(jpeg_.image_width, jpeg_.image_height);
+    jpeg_.scale_num = jpeg_.scale_denom = 1;
+    while (jpeg_.scale_denom < smallest && shorter / (2 * jpeg_.scale_denom) >= static_cast<unsigned int>(least_side))
       jpeg_.scale_denom *= 2;
     jpeg_calc_output_dimensions(&jpeg_);
     return true;
@@ -163,9 +165,9 @@ bool jpeg_is_whole(std::string_view bytes) {
   return false;
 }
 
-OpenedPicture open_jpeg_bytes(std::string_view bytes, int least_width) {
+OpenedPicture open_jpeg_bytes(std::string_view bytes, int least_side) {
   auto reader = std::make_unique<JpegReader>(bytes);
-  if (!reader->open(least_width)) return {nullptr, reader->complaint()};
+  if (!reader->open(least_side)) return {nullptr, reader->complaint()};
   return {std::move(reader), {}};
 }
 

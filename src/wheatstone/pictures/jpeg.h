@@ -15,9 +15,10 @@ bool is_jpeg(std::string_view bytes);
 bool jpeg_is_whole(std::string_view bytes);
 
 /// Reads a JPEG with libjpeg alone; CMYK becomes RGB. `bytes` outlive the reader. Its attributes are Orientation and
-/// ICCProfile, where it has them. A picture that is to be decoded fast is an eighth, a quarter or a half as large as
-/// the file says, the smallest of these that is still `least_width` columns wide.
-OpenedPicture open_jpeg_bytes(std::string_view bytes, int least_width = std::numeric_limits<int>::max());
+/// ICCProfile, where it has them.
+/// With `least_side` it is decoded fast, as the smallest of an eighth, a quarter and a half of its size whose sides
+/// have at least so many pixels; where none has, whole.
+OpenedPicture open_jpeg_bytes(std::string_view bytes, int least_side = std::numeric_limits<int>::max());
 
 /// A picture of bytes with one channel, grey, or three as a JPEG whose colours are kept at full resolution: halved
 /// chroma would give an anaglyph ghosts. `quality` is 1..100. Sides have at most 65 500 pixels.

@@ -133,11 +133,11 @@ OpenPicture open_png(std::string_view bytes, std::string_view colour_profile, co
   return open;
 }
 
-OpenPicture open_jpeg(std::string_view bytes, const fs::path& path, int least_width) {
+OpenPicture open_jpeg(std::string_view bytes, const fs::path& path, int least_side) {
   if (!is_jpeg(bytes) || !jpeg_is_whole(bytes)) refuse_damaged(path, "one of its pictures is no whole JPEG");
   OpenPicture open;
   open.bytes = bytes;
-  take(path, open_jpeg_bytes(open.bytes, least_width), open);
+  take(path, open_jpeg_bytes(open.bytes, least_side), open);
   check_opened(path, open);
   return open;
 }

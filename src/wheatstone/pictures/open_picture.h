@@ -23,10 +23,10 @@ struct OpenPicture {
 /// file has it so. Throws Error as read_image.
 OpenPicture open_picture(const std::filesystem::path& path);
 
-/// The same of a JPEG in memory, as it stands among others in a file; `path` stands for it in messages. `least_width`
+/// The same of a JPEG in memory, as it stands among others in a file; `path` stands for it in messages. `least_side`
 /// as of open_jpeg_bytes.
 OpenPicture open_jpeg(std::string_view bytes, const std::filesystem::path& path,
-                      int least_width = std::numeric_limits<int>::max());
+                      int least_side = std::numeric_limits<int>::max());
 
 /// The same of a PNG in memory, with the ICC profile that belongs to it.
 OpenPicture open_png(std::string_view bytes, std::string_view colour_profile, const std::filesystem::path& path);

@@ -18,6 +18,7 @@
 
 #include "wheatstone/pictures/animated_png_internal.h"
 #include "wheatstone/pictures/colour_profile_internal.h"
+#include "wheatstone/pictures/jpeg.h"
 #include "wheatstone/pictures/open_picture.h"
 #include "wheatstone/pictures/upright.h"
 
@@ -179,8 +180,10 @@ Image<Rgb8> decode_jpeg(std::string_view bytes, const fs::path& path) {
   return read_opened(path, open_jpeg(bytes, path));
 }
 
-Image<Rgb8> decode_small_jpeg(std::string_view bytes, const fs::path& path, int least_width) {
-  return read_opened(path, open_jpeg(bytes, path, least_width));
+Image<Rgb8> decode_small_jpeg(std::string_view bytes, const fs::path& path) {
+  constexpr int least_side = 300;
+  if (!jpeg_is_whole(bytes)) refuse_damaged(path, "it ends too early");
+  return read_opened(path, open_jpeg(bytes, path, least_side));
 }
 
 ImageDescription describe_image(const std::filesystem::path& path) {

@@ -23,9 +23,9 @@ std::array<Image<Rgb8>, 2> read_two_images(const std::filesystem::path& first, c
 
 /// The same of a JPEG in memory; `path` stands for it in messages.
 Image<Rgb8> decode_jpeg(std::string_view bytes, const std::filesystem::path& path);
-/// The same, decoded fast for a first look: an eighth, a quarter or a half as large as the file says, the smallest of
-/// these whose rows, before they are turned upright, have at least `least_width` pixels.
-Image<Rgb8> decode_small_jpeg(std::string_view bytes, const std::filesystem::path& path, int least_width);
+/// The same of a file's only JPEG, decoded fast for a first look: the smallest of an eighth, a quarter and a half of
+/// its size that is at least 300 pixels wide and high; where none is, the whole picture.
+Image<Rgb8> decode_small_jpeg(std::string_view bytes, const std::filesystem::path& path);
 
 /// Whether these are the bytes of a GIF, an animated WebP or an animated PNG, which hold one frame or more.
 bool may_be_animated(std::string_view bytes);

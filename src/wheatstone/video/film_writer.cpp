@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "wheatstone/error.h"
+#include "wheatstone/pictures/picture_file.h"
 #include "wheatstone/pictures/write_image.h"
 #include "wheatstone/video/film_file_internal.h"
 #include "wheatstone/video/frame_steps_internal.h"
@@ -18,8 +19,13 @@
 namespace wheatstone {
 
 bool writes_deep(const std::filesystem::path& path, const FilmWriterOptions& options) {
-  if (frame_pattern(path)) return path.extension() == ".exr" || takes_sixteen_bits(path);
-  return is_deep(pixel_format_of(options));
+  if (!frame_pattern(path)) return is_deep(pixel_format_of(options));
+  return ending_of(path) == ".exr" || options.pixel_format == sixteen_bits;
+}
+
+void keep_bits(const FilmFacts& source, const std::filesystem::path& path, FilmWriterOptions& options) {
+  if (frame_pattern(path) && takes_sixteen_bits(path) && is_deep(av_get_pix_fmt(source.pixel_format.c_str())))
+    options.pixel_format = sixteen_bits;
 }
 
 struct FilmWriter::Implementation {

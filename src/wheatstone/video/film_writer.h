@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "wheatstone/stereo/stereo_layout.h"
+#include "wheatstone/video/film_reader.h"
 #include "wheatstone/video/frame.h"
 
 namespace wheatstone {
@@ -38,9 +39,15 @@ struct FilmWriterOptions {
 /// The codecs that films are written with: "h264", "prores-hq" and so on.
 std::span<const std::string_view> film_codecs();
 
+/// The pixel format of numbered pictures with 16 bits a channel, which PNG and TIFF take.
+inline constexpr const char* sixteen_bits = "gbrp16le";
+
 /// Whether frames of a film at `path` are written with more than 8 bits a channel, if they have them: by the codec's
-/// pixels, or as numbered pictures in OpenEXR, PNG or TIFF.
+/// pixels, or as numbered pictures in OpenEXR or of sixteen_bits.
 bool writes_deep(const std::filesystem::path& path, const FilmWriterOptions& options);
+
+/// Chooses sixteen_bits for numbered PNGs and TIFFs of a source that has more than 8 bits.
+void keep_bits(const FilmFacts& source, const std::filesystem::path& path, FilmWriterOptions& options);
 
 /// What of the audio and subtitles of `options.side_streams_from` a film at `path` would leave out because its
 /// container cannot take it: a sentence a stream. Found out by writing the beginning of each stream to memory.

@@ -126,8 +126,7 @@ TEST(FilmWriter, TenBitsComeBackFromEveryCodecThatHasThem) {
   make_film(folder / "b.mkv", 1, {.codec = "ffv1"});
   EXPECT_TRUE(frames_of(folder / "b.mkv", {.deep = true})[0].deep.empty());
   EXPECT_FALSE(writes_deep(folder / "b.mkv", {}));
-  EXPECT_TRUE(writes_deep(folder / "b_%04d.png", {}));
-  EXPECT_FALSE(writes_deep(folder / "b_%04d.jpg", {.codec = "hevc-10"}));
+  EXPECT_FALSE(writes_deep(folder / "b_%04d.png", {.codec = "hevc-10"}));
 }
 
 TEST(FilmWriter, OpenExrOfTwoEyesKeepsMoreThanEightBits) {
@@ -146,27 +145,42 @@ TEST(FilmWriter, OpenExrOfTwoEyesKeepsMoreThanEightBits) {
   EXPECT_LE(largest_difference(read[0].picture, ramp.picture), 1);
 }
 
-TEST(FilmWriter, NumberedPicturesHaveTheBitsOfTheirFrames) {
+TEST(FilmWriter, NumberedPicturesHaveTheBitsOfTheirSource) {
   const TemporaryFolder folder;
   const Frame ramp = ramp_of_ten_bits();
   Frame flat = ramp;
   flat.deep = {};
+  FilmFacts source;
   for (const char* name : {"a_%d.png", "a_%d.tif"}) {
-    for (const Frame& frame : {ramp, flat}) {
-      SegmentedFilm writer(folder / name, {}, {});
-      writer.write(frame);
+    for (const char* format : {"yuv420p10le", "yuv420p"}) {
+      source.pixel_format = format;
+      const bool is_deep = source.pixel_format == "yuv420p10le";
+      FilmWriterOptions options;
+      keep_bits(source, folder / name, options);
+      EXPECT_EQ(writes_deep(folder / name, options), is_deep);
+      SegmentedFilm writer(folder / name, options, {});
+      // A frame of 8 bits comes first, as of a shot in a style of regions.
+      writer.write(flat);
+      Frame second = is_deep ? ramp : flat;
+      second.pts = flat.pts + 1;
+      writer.write(second);
       writer.finish();
-      const fs::path file = frame_pattern(folder / name)->file(1);
-      EXPECT_EQ(describe_image(file).bits, frame.deep.empty() ? 8 : 16) << name;
-      EXPECT_EQ(read_deep_image(file), frame.deep) << name;
-      EXPECT_TRUE(!frame.deep.empty() || read_image(file) == frame.picture) << name;
-      fs::remove(file);
+      for (const int number : {1, 2}) {
+        const fs::path file = frame_pattern(folder / name)->file(number);
+        EXPECT_EQ(describe_image(file).bits, is_deep ? 16 : 8) << file;
+        EXPECT_EQ(read_image(file), flat.picture) << file;
+        EXPECT_TRUE(number == 1 || read_deep_image(file) == second.deep) << file;
+        fs::remove(file);
+      }
     }
   }
-  SegmentedFilm writer(folder / "b_%d.webp", {}, {});
-  writer.write(ramp);
+  SegmentedFilm writer(folder / "a_%d.exr", {}, {});
+  writer.write(flat);
   writer.finish();
-  EXPECT_EQ(describe_image(folder / "b_1.webp").bits, 8);
+  EXPECT_EQ(read_image(folder / "a_1.exr"), flat.picture);
+  FilmWriterOptions options;
+  keep_bits(source, folder / "b_%d.webp", options);
+  EXPECT_EQ(options.pixel_format, "");
 }
 
 TEST(FilmWriter, EveryCodecKeepsTheShapeOfPixelsAndTheRate) {

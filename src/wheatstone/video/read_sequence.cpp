@@ -21,7 +21,7 @@ PictureSequence::PictureSequence(const std::filesystem::path& path, FramePattern
   const Image<Rgb8> first = picture(first_);
   facts_.container = "sequence";
   facts_.codec = path.extension().empty() ? "" : path.extension().string().substr(1);
-  facts_.pixel_format = "rgb24";
+  facts_.pixel_format = describe_image(pattern_.file(first_)).bits > 8 ? "rgb48le" : "rgb24";
   facts_.width = first.width();
   facts_.height = first.height();
   facts_.frame_rate = rate;

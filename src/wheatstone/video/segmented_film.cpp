@@ -64,14 +64,8 @@ FilmWriterOptions options_of_segments(const FilmWriterOptions& options, const fs
   if (!frame_pattern(film)) return result;
   result.codec = "ffv1";
   result.crf.reset();
-  result.pixel_format.clear();
+  result.pixel_format = writes_deep(film, options) ? sixteen_bits : "";
   return result;
-}
-
-/// Segments of numbered pictures keep the bits that their first frame has.
-FilmWriterOptions options_of_segment(FilmWriterOptions options, bool of_pictures, const Frame& first) {
-  if (of_pictures && !first.deep.empty()) options.pixel_format = "gbrp16le";
-  return options;
 }
 
 }  // namespace
@@ -79,7 +73,6 @@ FilmWriterOptions options_of_segment(FilmWriterOptions options, bool of_pictures
 struct FilmSegment::Implementation {
   fs::path folder;
   std::int64_t number;
-  bool of_pictures;
   FilmWriterOptions options;
   FrameSteps steps;
   std::unique_ptr<SegmentFile> file;
@@ -87,8 +80,7 @@ struct FilmSegment::Implementation {
 
 FilmSegment::FilmSegment(fs::path folder, std::int64_t number, const fs::path& film, const FilmWriterOptions& options)
     : implementation_(std::make_unique<Implementation>(
-          Implementation{std::move(folder), number, frame_pattern(film).has_value(), options_of_segments(options, film),
-                         FrameSteps(film), nullptr})) {
+          Implementation{std::move(folder), number, options_of_segments(options, film), FrameSteps(film), nullptr})) {
   check_encoding(implementation_->options);
 }
 FilmSegment::FilmSegment(FilmSegment&&) noexcept = default;
@@ -98,9 +90,7 @@ FilmSegment::~FilmSegment() = default;
 void FilmSegment::write(const Frame& frame) {
   Implementation& own = *implementation_;
   own.steps.check(frame);
-  if (!own.file)
-    own.file = std::make_unique<SegmentFile>(own.folder, own.number,
-                                             options_of_segment(own.options, own.of_pictures, frame), frame);
+  if (!own.file) own.file = std::make_unique<SegmentFile>(own.folder, own.number, own.options, frame);
   own.file->add(frame);
 }
 
@@ -205,8 +195,7 @@ void SegmentedFilm::write(const Frame& frame) {
   Implementation& own = *implementation_;
   own.steps.check(frame);
   if (!own.segment) {
-    own.segment = std::make_unique<SegmentFile>(own.folder, own.whole_segments,
-                                                options_of_segment(own.options, own.pattern.has_value(), frame), frame);
+    own.segment = std::make_unique<SegmentFile>(own.folder, own.whole_segments, own.options, frame);
     if (own.notes.empty()) note_padding(frame.picture, own.segment->encoder(), own.notes);
   }
   own.segment->add(frame);

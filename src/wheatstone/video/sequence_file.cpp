@@ -8,6 +8,7 @@
 
 #include "wheatstone/error.h"
 #include "wheatstone/pictures/multiview_exr.h"
+#include "wheatstone/pictures/picture_file.h"
 #include "wheatstone/pictures/write_image.h"
 #include "wheatstone/stereo/packed_pair.h"
 
@@ -41,7 +42,7 @@ SequenceFile::~SequenceFile() {
 
 void SequenceFile::add(const Frame& frame) {
   const fs::path file = hidden_.file(++count_);
-  if (file.extension() != ".exr") {
+  if (ending_of(file) != ".exr") {
     if (frame.deep.empty() || !takes_sixteen_bits(file)) return write_image(file, frame.picture);
     return write_image(file, frame.deep);
   }
