@@ -15,7 +15,6 @@
 #include "wheatstone/app/painted_film.h"
 #include "wheatstone/error.h"
 #include "wheatstone/files/output_paths.h"
-#include "wheatstone/pictures/write_image.h"
 #include "wheatstone/video/film_files.h"
 
 namespace wheatstone::cli {
@@ -74,9 +73,8 @@ Report run_pack_film(PackFilmArguments arguments, const Session& session) {
   }
   for (const fs::path& output : {fs::path(arguments.output), options.right_film})
     if (!output.empty()) check_not_an_input(output, std::array{film.film, film.right});
-  const FilmReaderOptions reading{
-      .threads = session.threads,
-      .deep = writes_deep(arguments.output, arguments.writing) || takes_sixteen_bits(arguments.output)};
+  const FilmReaderOptions reading{.threads = session.threads,
+                                  .deep = may_write_deep(arguments.output, arguments.writing)};
   StereoFilmReader source = open_film(film, reading);
   if (source.layout() == StereoLayout::mono && film.right.empty())
     throw Error(ErrorKind::bad_input,

@@ -20,7 +20,6 @@
 #include "wheatstone/files/output_paths.h"
 #include "wheatstone/motion/flow_file.h"
 #include "wheatstone/pictures/disparity_file.h"
-#include "wheatstone/pictures/write_image.h"
 #include "wheatstone/stereo/geometry_from_disparity.h"
 #include "wheatstone/video/film_files.h"
 #include "wheatstone/video/frame_sequence.h"
@@ -340,7 +339,7 @@ Report run_rotoscope(const RotoscopeArguments& given, const Session& session) {
   take_display(arguments);
   if (arguments.options.frames.display || writes_marks(arguments)) arguments.options.frames.depth_budget.reset();
   frames.deep = !frames.display && arguments.output_layout.anaglyph.empty() &&
-                (writes_deep(arguments.output, arguments.options.writing) || takes_sixteen_bits(arguments.output));
+                may_write_deep(arguments.output, arguments.options.writing);
   frames.depth = {.kind = arguments.depth.kind, .strength = arguments.depth.strength};
   if (arguments.output_layout.two_films && !writes_marks(arguments)) {
     arguments.options.right_film = film_of_eye(arguments.output, right_eye);

@@ -38,12 +38,13 @@ struct FrameTask {
   Flow to_before = {};  ///< of the left eye, in pixels of a small copy; empty where none is known
   int reduction = 1;    ///< of `eyes`, and of all that is found in them
   bool is_lit_as_before = true;
+  bool deep = false;  ///< drawn with 16 bits a channel, too
 };
 
 /// A frame as it is painted from.
 struct FrameAtWork {
-  std::optional<StereoPair> retouched = {};  ///< what the eyes see if a depth corrected by hand moves things there
-  Image<float> found_disparity = {};         ///< the left eye's, without what is corrected; empty where nothing is
+  Image<Rgb8> retouched_right = {};   ///< the right eye's picture if a depth corrected by hand moves things there
+  Image<float> found_disparity = {};  ///< the left eye's, without what is corrected; empty where nothing is
   StereoGeometry geometry;
   CentralView centre;
   std::vector<View> views;
@@ -249,13 +250,13 @@ FlowPair find_flow(const FrameAtWork& frame, const FrameTask& task, const Rotosc
 }
 
 /// The pictures that the frame is painted from.
-const StereoPair& eyes_of(const FrameTask& task, const FrameAtWork& frame) {
-  return frame.retouched ? *frame.retouched : task.eyes;
+StereoPairView eyes_of(const FrameTask& task, const FrameAtWork& frame) {
+  return {task.eyes.left, frame.retouched_right.empty() ? task.eyes.right : frame.retouched_right};
 }
 
 /// The right eye's picture as the frame is drawn. Where it is planned at half the size, nothing is moved in it.
 const Image<Rgb8>& right_as_drawn(const FrameTask& task, const FrameAtWork& frame) {
-  return frame.retouched && task.reduction == 1 ? frame.retouched->right : task.whole.right;
+  return task.reduction > 1 || frame.retouched_right.empty() ? task.whole.right : frame.retouched_right;
 }
 
 /// Takes what was corrected by hand into the geometry that was found.
@@ -264,8 +265,7 @@ void correct_depth(const FrameTask& task, RotoscopeState& state, FrameAtWork& fr
       corrected(frame.geometry.left_disparity, task.options.maps.disparity,
                 {task.whole.left.width(), task.whole.left.height()}, task.to_before, state.corrected_disparity);
   if (!by_hand) return;
-  Image<Rgb8> right = retouched_right(task.eyes, frame.geometry, *by_hand);
-  if (!right.empty()) frame.retouched = {task.eyes.left, std::move(right)};
+  frame.retouched_right = retouched_right(task.eyes, frame.geometry, *by_hand);
   frame.found_disparity = std::exchange(frame.geometry, std::move(*by_hand)).left_disparity;
 }
 
@@ -340,13 +340,8 @@ Image<std::uint8_t> detail_of(const FrameTask& task, const FrameAtWork& frame, b
   return detail;
 }
 
-bool is_drawn_deep(const RotoscopeOptions& options, ImageView<const Rgb16> left_deep) {
-  return options.deep && !left_deep.empty();
-}
-
 /// Shows the frame on the display, to other eyes than the film's own, or to these, over their pictures.
-FrameShowing showing_of(const FrameTask& task, const FrameAtWork& frame, const TwoEyes& eyes, const SceneDepth& depth,
-                        bool deep) {
+FrameShowing showing_of(const FrameTask& task, const FrameAtWork& frame, const TwoEyes& eyes, const SceneDepth& depth) {
   const RotoscopeOptions& options = task.options;
   const StereoPair& whole = task.whole;
   if (options.display)
@@ -358,7 +353,7 @@ FrameShowing showing_of(const FrameTask& task, const FrameAtWork& frame, const T
     if (!one_eye) showing.backgrounds.push_back(right_as_drawn(task, frame));
   }
   showing.presentation.device = options.device;
-  showing.presentation.deep = deep && options.device == Device::processor;
+  showing.presentation.deep = task.deep && options.device == Device::processor;
   return showing;
 }
 
@@ -374,8 +369,7 @@ PlannedFrame plan_marks(const FilmFrame& frame, const FrameTask& task, const Two
     return planned;
   }
   if (!are_own_eyes(options, eyes)) return plan_frame(frame, style, options.carrying, memory, task.progress);
-  return plan_for_eyes(frame, style, options.carrying, memory, task.progress, options.device,
-                       is_drawn_deep(options, frame.left_deep));
+  return plan_for_eyes(frame, style, options.carrying, memory, task.progress, options.device, task.deep);
 }
 
 /// The mask as the scene's frames are rectified, whose colours do not matter.
@@ -469,7 +463,8 @@ PlannedFilmFrame plan_film_frame(const StereoPair& photographed, const Rotoscope
                        progress,
                        std::move(first.to_before),
                        is_smaller ? 2 : 1,
-                       first.is_lit_as_before};
+                       first.is_lit_as_before,
+                       options.deep && !left_deep.empty()};
   FrameAtWork frame = look_at(task, state, result.times);
   find_views(task, result.scene_begins, state, frame);
   const bool carries = !result.scene_begins && !options.anew;
@@ -495,7 +490,7 @@ PlannedFilmFrame plan_film_frame(const StereoPair& photographed, const Rotoscope
     result.counts = planned.counts;
     result.drawn = std::move(planned.drawn);
   }
-  result.showing = showing_of(task, frame, result.eyes, state.depth, is_drawn_deep(options, left_deep));
+  result.showing = showing_of(task, frame, result.eyes, state.depth);
   if (mask != nullptr) plan_outside(to_paint, task, *mask, frame, state, result);
   accumulate_statistics(options, state, result);
 

@@ -23,6 +23,10 @@ bool writes_deep(const std::filesystem::path& path, const FilmWriterOptions& opt
   return ending_of(path) == ".exr" || options.pixel_format == sixteen_bits;
 }
 
+bool may_write_deep(const std::filesystem::path& path, const FilmWriterOptions& options) {
+  return writes_deep(path, options) || takes_sixteen_bits(path);
+}
+
 void keep_bits(const FilmFacts& source, const std::filesystem::path& path, FilmWriterOptions& options) {
   if (frame_pattern(path) && takes_sixteen_bits(path) && is_deep(av_get_pix_fmt(source.pixel_format.c_str())))
     options.pixel_format = sixteen_bits;

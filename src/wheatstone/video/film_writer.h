@@ -46,6 +46,9 @@ inline constexpr const char* sixteen_bits = "gbrp16le";
 /// pixels, or as numbered pictures in OpenEXR or of sixteen_bits.
 bool writes_deep(const std::filesystem::path& path, const FilmWriterOptions& options);
 
+/// The same before the source is known, for which keep_bits may choose sixteen_bits.
+bool may_write_deep(const std::filesystem::path& path, const FilmWriterOptions& options);
+
 /// Chooses sixteen_bits for numbered PNGs and TIFFs of a source that has more than 8 bits.
 void keep_bits(const FilmFacts& source, const std::filesystem::path& path, FilmWriterOptions& options);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <functional>
 #include <new>
 #include <numbers>
 #include <span>
@@ -99,6 +100,29 @@ void to_swscale(std::span<Rgb16> row) {
   for (Rgb16& pixel : row) pixel = {scaled(pixel.r), scaled(pixel.g), scaled(pixel.b)};
 }
 
+/// The packed pixels that swscale takes to a format. Of bytes, it would make white 255 * 256 in RGB of 16 bits.
+template <class Pixel>
+AVPixelFormat packed_for(AVPixelFormat format) {
+  return is_rgb(format) && is_deep(format) ? AV_PIX_FMT_RGB48 : packed_format<Pixel>;
+}
+
+Rgb16 with_sixteen_bits(Rgb8 colour) {
+  const auto word = [](std::uint8_t byte) { return static_cast<std::uint16_t>(byte * deep_level); };
+  return {word(colour.r), word(colour.g), word(colour.b)};
+}
+
+template <class Packed>
+std::span<Packed> row_of(AVFrame& frame, int y) {
+  auto* const first = frame.data[0] + static_cast<std::ptrdiff_t>(y) * frame.linesize[0];
+  return {reinterpret_cast<Packed*>(first), static_cast<std::size_t>(frame.width)};  // NOLINT
+}
+
+/// A row of a picture, each pixel as `as` makes it, the last one repeated to the end.
+template <class Pixel, class Packed, class As>
+void put_row(std::span<const Pixel> row, std::span<Packed> to, As as) {
+  std::ranges::fill(std::ranges::transform(row, to.begin(), as).out, to.end(), as(row.back()));
+}
+
 OwnedFrame frame_of(int width, int height, AVPixelFormat format) {
   OwnedFrame frame = new_frame();
   frame->width = width;
@@ -164,8 +188,8 @@ void RgbFromFrame<Pixel>::convert(const AVFrame& frame, Image<Pixel>& picture) {
 
 template <class Pixel>
 FrameFromRgb<Pixel>::FrameFromRgb(int width, int height, AVPixelFormat format, AVColorSpace matrix, AVColorRange range)
-    : scaler_(sws_alloc_context()), rgb_(frame_of(width, height, packed_format<Pixel>)), format_(format) {
-  SwsContext& scaler = prepared(scaler_.get(), width, height, packed_format<Pixel>, format);
+    : scaler_(sws_alloc_context()), rgb_(frame_of(width, height, packed_for<Pixel>(format))), format_(format) {
+  SwsContext& scaler = prepared(scaler_.get(), width, height, packed_for<Pixel>(format), format);
   const AVPixFmtDescriptor* description = av_pix_fmt_desc_get(format);
   if (description->log2_chroma_w == 1) {
     const ChromaPlace place = chroma_place(AVCHROMA_LOC_LEFT);
@@ -181,10 +205,14 @@ template <class Pixel>
 OwnedFrame FrameFromRgb<Pixel>::convert(ImageView<const Pixel> picture) {
   for (int y = 0; y < rgb_->height; ++y) {
     const std::span<const Pixel> row = picture.row(std::min(y, picture.height() - 1));
-    auto* const first =
-        reinterpret_cast<Pixel*>(rgb_->data[0] + static_cast<std::ptrdiff_t>(y) * rgb_->linesize[0]);  // NOLINT
-    const std::span<Pixel> target(first, static_cast<std::size_t>(rgb_->width));
-    std::ranges::fill(std::ranges::copy(row, target.begin()).out, target.end(), row.back());
+    if constexpr (std::is_same_v<Pixel, Rgb8>) {
+      if (rgb_->format == packed_format<Rgb16>) {
+        put_row(row, row_of<Rgb16>(*rgb_, y), with_sixteen_bits);
+        continue;
+      }
+    }
+    const std::span<Pixel> target = row_of<Pixel>(*rgb_, y);
+    put_row(row, target, std::identity());
     if constexpr (std::is_same_v<Pixel, Rgb16>)
       if (!is_rgb(format_)) to_swscale(target);
   }

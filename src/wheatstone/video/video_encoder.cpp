@@ -111,15 +111,6 @@ void set_private_options(AVCodecContext& codec, const FilmWriterOptions& options
   }
 }
 
-Image<Rgb16> with_sixteen_bits(const Image<Rgb8>& picture) {
-  const auto word = [](std::uint8_t byte) { return static_cast<std::uint16_t>(byte * deep_level); };
-  Image<Rgb16> deep(picture.width(), picture.height());
-  std::ranges::transform(picture.pixels(), deep.pixels().begin(), [&](Rgb8 colour) {
-    return Rgb16{word(colour.r), word(colour.g), word(colour.b)};
-  });
-  return deep;
-}
-
 }  // namespace
 
 void check_encoding(const FilmWriterOptions& options) {
@@ -179,8 +170,6 @@ VideoEncoder::VideoEncoder(const FilmWriterOptions& options, int width, int heig
 
 OwnedFrame VideoEncoder::to_code(const Frame& frame) {
   if (frame_from_deep_ && !frame.deep.empty()) return frame_from_deep_->convert(frame.deep);
-  // libswscale makes white of bytes 65283 of 65535 where words are of RGB.
-  if (codec_->pix_fmt == AV_PIX_FMT_GBRP16LE) return frame_from_deep_->convert(with_sixteen_bits(frame.picture));
   return frame_from_rgb_->convert(frame.picture);
 }
 
