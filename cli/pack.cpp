@@ -58,6 +58,7 @@ struct PackArguments {
 /// where nothing is done to them before.
 ViewsArguments input_of(const PackArguments& arguments, const Packing& packing, const Session& session) {
   ViewsArguments input = arguments.input;
+  input.keep_profile = keeps_profile(packing, arguments.packing, arguments.output);
   settle_device(input.device, session);
   const int views = packing.format->views;
   const bool untouched = arguments.shift_px == 0 && !arguments.print.floating_window && !input.swap &&
@@ -112,6 +113,7 @@ PhotographResult pack_one(const PackArguments& arguments, const Session& session
                                      arguments.shift_px, arguments.max_size},
                                     packing, session)
                        : read_views_argument(input_of(arguments, packing, session), views_wanted(packing), session);
+  output.notes.colour_profile = std::move(read.colour_profile);
   if (arguments.max_size > 0 && !read.views.empty()) reduce(read.views, arguments.max_size);
   if (arguments.given("--framing") && !arguments.packing.display.empty() && !are_made) reframe(read.views, arguments);
   PackArguments rest = arguments;

@@ -321,6 +321,13 @@ void check_ending(const Packing& packing, const std::string& output) {
 
 bool sets_caption(const Packing& packing) { return packing.format->name == "card"; }
 
+bool keeps_profile(const Packing& packing, const PackingArguments& arguments, const std::string& output) {
+  const std::string_view name = packing.format->name;
+  if (is_one_of(name, {"mpo", "jps"})) return true;
+  if (name == "views") return takes_profile("view." + arguments.format);
+  return (name == "card" || find_stereo_layout(name)) && takes_profile(output);
+}
+
 int views_wanted(const Packing& packing) {
   return packing.format->name == "quilt" ? packing.quilt->columns * packing.quilt->rows : packing.format->views;
 }

@@ -93,6 +93,10 @@ Reason if_card(const PackingArguments& arguments, const std::string& output);
 /// Whether the format sets the caption itself, instead of below each view.
 bool sets_caption(const Packing& packing);
 
+/// Whether the packing shows the views' own colours, in a file that can say their ICC profile. Anaglyphs mix colours
+/// for glasses, and what a display takes goes to it as it is: they are sRGB.
+bool keeps_profile(const Packing& packing, const PackingArguments& arguments, const std::string& output);
+
 /// How many views the packing needs; 0: any number.
 int views_wanted(const Packing& packing);
 

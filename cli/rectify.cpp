@@ -23,8 +23,7 @@ struct RectifyArguments {
 };
 
 /// The library knows pictures, not files; what it says of them gets their names.
-RectifiedPair rectified(const RectifyArguments& arguments, const Session& session) {
-  const NamedPair read = read_named_pair(arguments.photographs);
+RectifiedPair rectified(const NamedPair& read, const RectifyArguments& arguments, const Session& session) {
   const RectifyOptions options{.match_colour = arguments.match_colour};
   std::optional<StereoCalibration> calibration;
   if (!arguments.calibration.empty()) calibration = read_stereo_calibration(arguments.calibration);
@@ -102,9 +101,13 @@ PhotographResult rectify_one(const RectifyArguments& arguments, const Session& s
                       {arguments.photographs.left, arguments.photographs.right, arguments.calibration});
   const std::filesystem::path left = folder.file(fmt::format("left.{}", arguments.format));
   const std::filesystem::path right = folder.file(fmt::format("right.{}", arguments.format));
-  const RectifiedPair pair = rectified(arguments, session);
-  write_image(left, pair.pictures.left);
-  write_image(right, pair.pictures.right);
+  StereoArguments photographs = arguments.photographs;
+  photographs.keep_profile = takes_profile(left);
+  const NamedPair read = read_named_pair(photographs);
+  const RectifiedPair pair = rectified(read, arguments, session);
+  const PictureNotes notes{.colour_profile = read.colour_profile};
+  write_image(left, pair.pictures.left, notes);
+  write_image(right, pair.pictures.right, notes);
   folder.commit();
   return {report_of(pair, arguments), arguments.folder};
 }

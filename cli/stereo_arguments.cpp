@@ -51,6 +51,7 @@ NamedPair read_flat(const std::string& file) {
 NamedPair read_one_file(const StereoArguments& arguments) {
   ReadViewsOptions options = arguments.layout.empty() ? ReadViewsOptions() : options_for_layout(arguments.layout);
   options.swap = arguments.swap;
+  options.keep_profile = arguments.keep_profile;
   std::optional<ViewsFile> found = find_views(arguments.left, options);
   if (!found && arguments.may_be_flat && arguments.layout.empty() && !arguments.swap) return read_flat(arguments.left);
   if (!found)
@@ -65,7 +66,8 @@ NamedPair read_one_file(const StereoArguments& arguments) {
   if (arguments.swap) how += ", swapped";
   if (!file.note.empty()) how += "; " + file.note;
   NamedPair read{middle_pair(file), fmt::format("{} ({})", arguments.left, how),
-                 fmt::format("{}: {}", arguments.left, how), file.how_known == HowKnown::halves};
+                 fmt::format("{}: {}", arguments.left, how), file.how_known == HowKnown::halves,
+                 std::move(file.colour_profile)};
   check_sizes(read.pictures, arguments.left, arguments.left);
   return read;
 }
@@ -82,8 +84,10 @@ PictureSize reduce(StereoPair& pair, int longest_px) {
 NamedPair read_two_files(const StereoArguments& arguments) {
   if (!arguments.layout.empty())
     throw Error(ErrorKind::wrong_usage, "--layout is for one file that holds both views, but two files are given");
-  auto [of_left, of_right] = read_two_images(arguments.left, arguments.right);
-  StereoPair pair{std::move(of_left), std::move(of_right)};
+  std::array<PictureInProfile, 2> files = read_two_in_profile(arguments.left, arguments.right);
+  const std::string profile = arguments.keep_profile ? bring_to_one_profile(files) : std::string();
+  StereoPair pair{profile.empty() ? in_srgb(std::move(files[0])) : std::move(files[0].picture),
+                  profile.empty() ? in_srgb(std::move(files[1])) : std::move(files[1].picture)};
   std::string framed;
   const PictureSize left{pair.left.width(), pair.left.height()}, right{pair.right.width(), pair.right.height()};
   if (differ_by_few(left, right)) {
@@ -93,6 +97,7 @@ NamedPair read_two_files(const StereoArguments& arguments) {
   }
   check_sizes(pair, arguments.left, arguments.right);
   NamedPair read{std::move(pair), fmt::format("{}, {}", arguments.left, arguments.right), {}};
+  read.colour_profile = profile;
   read.framed = std::move(framed);
   if (arguments.swap) std::swap(read.pictures.left, read.pictures.right);
   return read;

@@ -17,8 +17,9 @@ struct StereoArguments {
   std::string layout;       ///< of one picture that holds both; empty: find it
   bool swap = false;
   RectifyPolicy rectify = RectifyPolicy::automatic;
-  bool may_be_flat = false;  ///< one picture without depth will do, too: where nothing says that it holds two views
-  int max_size = 0;          ///< longer side of what is worked on, in pixels; 0: as large as it is
+  bool may_be_flat = false;   ///< one picture without depth will do, too: where nothing says that it holds two views
+  int max_size = 0;           ///< longer side of what is worked on, in pixels; 0: as large as it is
+  bool keep_profile = false;  ///< leave the pictures in the files' ICC profile, where they share one
 };
 
 /// --layout, --swap, --max-size and --rectify. `also` is said behind the names of the layouts.
@@ -53,6 +54,7 @@ struct NamedPair {
   std::string name;  ///< for messages: of both files, or of one and how it was understood
   std::string note;  ///< a line that says how one file was understood; empty: two files
   bool eyes_known_from_picture = false;
+  std::string colour_profile = {};  ///< of the pictures, where it was to be kept and they share one; empty: sRGB
   std::string framed = {};  ///< a line that says that two files were framed to their common part; empty: they were not
 };
 

@@ -44,28 +44,32 @@ std::vector<std::string> pictures_in(const std::string& folder) {
   return files;
 }
 
-ReadViews read_pictures(const std::vector<std::string>& files, const Progress& progress) {
+ReadViews read_pictures(const std::vector<std::string>& files, bool keep_profile, const Progress& progress) {
   ReadViews read;
   read.how = "a file each";
+  std::vector<PictureInProfile> pictures;
   for (const std::string& file : files) {
-    report(progress, "reading", static_cast<double>(read.views.size()) / static_cast<double>(files.size()));
-    read.views.push_back(read_image(file));
-    const Image<Rgb8>& first = read.views.front();
-    const Image<Rgb8>& last = read.views.back();
+    report(progress, "reading", static_cast<double>(pictures.size()) / static_cast<double>(files.size()));
+    pictures.push_back(read_in_profile(file));
+    const Image<Rgb8>& first = pictures.front().picture;
+    const Image<Rgb8>& last = pictures.back().picture;
     if (!same_size(first, last))
       throw Error(ErrorKind::bad_input, fmt::format("{}: is {}x{} pixels, expected {}x{} as {}", file, last.width(),
                                                     last.height(), first.width(), first.height(), files.front()));
   }
+  if (keep_profile) read.colour_profile = bring_to_one_profile(pictures);
+  for (PictureInProfile& picture : pictures)
+    read.views.push_back(read.colour_profile.empty() ? in_srgb(std::move(picture)) : std::move(picture.picture));
   return read;
 }
 
 /// The same; two that differ by a few rows are framed to their common part, as photographs are.
-ReadViews read_files(const std::vector<std::string>& files, const Session& session) {
-  if (files.size() != 2) return read_pictures(files, session.progress);
+ReadViews read_files(const std::vector<std::string>& files, bool keep_profile, const Session& session) {
+  if (files.size() != 2) return read_pictures(files, keep_profile, session.progress);
   report(session.progress, "reading", 0);
-  NamedPair read = read_named_pair({.left = files[0], .right = files[1]});
+  NamedPair read = read_named_pair({.left = files[0], .right = files[1], .keep_profile = keep_profile});
   tell_of_layout(read, session);
-  ReadViews views{{}, "a file each"};
+  ReadViews views{{}, "a file each", std::move(read.colour_profile)};
   views.views.push_back(std::move(read.pictures.left));
   views.views.push_back(std::move(read.pictures.right));
   return views;
@@ -95,14 +99,15 @@ std::optional<QuiltLayout> quilt_layout_of(const ViewsArguments& arguments, cons
 /// The views that a picture holds.
 ReadViews read_views_in_picture(const ViewsArguments& arguments, const std::string& file, const Progress& progress) {
   report(progress, "reading", 0);
-  const ReadViewsOptions options = arguments.layout.empty() ? ReadViewsOptions() : options_for_layout(arguments.layout);
+  ReadViewsOptions options = arguments.layout.empty() ? ReadViewsOptions() : options_for_layout(arguments.layout);
+  options.keep_profile = arguments.keep_profile;
   std::optional<ViewsFile> found = find_views(file, options);
   if (!found)
     throw Error(ErrorKind::bad_input,
                 fmt::format("{}: holds one view; give all views, or --layout for several views in one picture", file));
   std::string how = describe_views(*found);
   if (!found->note.empty()) how += "; " + found->note;
-  return {std::move(found->views), std::move(how)};
+  return {std::move(found->views), std::move(how), std::move(found->colour_profile)};
 }
 
 enum class ViewsKind { files, folder, photographs, film, quilt, painting, slices, multiview_exr, picture };
@@ -234,10 +239,10 @@ ReadViews read_views_argument(const ViewsArguments& arguments, int wanted, const
   const auto read = [&]() -> ReadViews {
     switch (kind_of(arguments)) {
       case ViewsKind::files:
-        return read_files(arguments.files, session);
+        return read_files(arguments.files, arguments.keep_profile, session);
       case ViewsKind::folder:
       case ViewsKind::photographs:
-        return read_pictures(pictures_in(file), progress);
+        return read_pictures(pictures_in(file), arguments.keep_profile, progress);
       case ViewsKind::film:
         throw Error(
             ErrorKind::bad_input,

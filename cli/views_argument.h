@@ -25,6 +25,7 @@ struct ViewsArguments {
   float span = 1;                     ///< of slices, in eye separations
   Device device = Device::processor;  ///< of paintings
   Slicing slicing = {};               ///< of paintings
+  bool keep_profile = false;          ///< leave pictures in their files' ICC profile, where all share one
   /// Whether the output is named as one file: then a folder holds views. None: it may hold photographs.
   std::function<bool()> into_one_file = {};
   /// Where all that is wanted is one picture of the views: paintings are drawn into it.
@@ -48,8 +49,9 @@ Reason unless_painting(const ViewsArguments& arguments);
 Row views_device_row(ViewsArguments& arguments);
 
 struct ReadViews {
-  std::vector<Image<Rgb8>> views;  ///< left to right, of one size
-  std::string how;                 ///< in words, where they come from
+  std::vector<Image<Rgb8>> views;   ///< left to right, of one size
+  std::string how;                  ///< in words, where they come from
+  std::string colour_profile = {};  ///< of the views, where it was to be kept and they share one; empty: sRGB
 
   /// Of a painting where one picture was wanted: then there are no views, but it is composed of so many of this size.
   Image<Rgb8> composed = {};

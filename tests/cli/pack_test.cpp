@@ -10,6 +10,7 @@
 #include "cli/run_program.h"
 #include "needs_gpu.h"
 #include "psnr.h"
+#include "scenes/colour_profiles.h"
 #include "wheatstone/display/quilt.h"
 #include "wheatstone/files/whole_file.h"
 #include "wheatstone/photograph/read_views.h"
@@ -136,6 +137,53 @@ TEST(PackCommand, PutsBordersAndCaptionsAroundTheViews) {
   expect_refused(folder, {"pack", "left.png", "right.png", "--to", "disparity", "--border", "3", "-o", "out.png"}, 2,
                  "it works where the views are shown");
   expect_refused(folder, {"pack", "left.png", "right.png", "--border", "3", "-o", "card.pdf"}, 2, "which has a mount");
+}
+
+TEST(PackCommand, KeepsTheProfileOfPhotographsInPrints) {
+  const TemporaryFolder folder;
+  const PictureNotes wide{.colour_profile = display_p3()};
+  write_image(folder / "left.png", still().left, wide);
+  write_image(folder / "right.png", still().right, wide);
+  const auto pack = [&](const std::string& file, const std::string& to, const std::string& output) {
+    std::vector<std::string> words{"pack", file, "--to", to, "-o", output};
+    if (file == "left.png") words.insert(words.begin() + 2, "right.png");
+    run_in(folder, words);
+    return read_in_profile(folder / output);
+  };
+  const PictureInProfile both = pack("left.png", "left-right", "both.png");
+  EXPECT_EQ(both.colour_profile, wide.colour_profile);
+  EXPECT_EQ(both.picture, put_together(still().left, still().right, StereoLayout::left_right));
+  EXPECT_EQ(pack("left.png", "card", "card.tif").colour_profile, wide.colour_profile);
+  EXPECT_EQ(pack("left.png", "jps", "both.jps").colour_profile, wide.colour_profile);
+  pack("left.png", "mpo", "both.mpo");
+  for (const std::string name : {"both.png", "both.jps", "both.mpo"}) {
+    std::vector<std::string> words{"pack", name, "-o", "views", "--to", "views", "--format", "tif"};
+    if (name == "both.png") words.insert(words.end(), {"--layout", "left-right"});
+    run_in(folder, words);
+    EXPECT_EQ(read_in_profile(folder / "views/view_001.tif").colour_profile, wide.colour_profile) << name;
+  }
+  run_in(folder, {"rectify", "left.png", "right.png", "-o", "rows"});
+  EXPECT_EQ(read_in_profile(folder / "rows/right.png").colour_profile, wide.colour_profile);
+}
+
+TEST(PackCommand, BringsWhatIsMixedOrGoesToADisplayToSrgb) {
+  const TemporaryFolder folder;
+  const PictureNotes wide{.colour_profile = display_p3()};
+  write_image(folder / "left.png", still().left, wide);
+  write_image(folder / "right.png", still().right, wide);
+  write_image(folder / "left_srgb.png", read_image(folder / "left.png"));
+  write_image(folder / "right_srgb.png", read_image(folder / "right.png"));
+  const std::vector<std::vector<std::string>> outputs{
+      {"left-right", "a.webp"}, {"left-right", "a.ppm"}, {"anaglyph", "a.png"}, {"rgbd", "b.png"}};
+  for (const std::vector<std::string>& output : outputs) {
+    run_in(folder, {"pack", "left.png", "right.png", "--to", output[0], "-o", output[1]});
+    run_in(folder, {"pack", "left_srgb.png", "right_srgb.png", "--to", output[0], "-o", "srgb_" + output[1]});
+    EXPECT_EQ(bytes_of(folder / output[1]), bytes_of(folder / ("srgb_" + output[1]))) << output[1];
+  }
+  // Of two profiles neither can be kept.
+  run_in(folder, {"pack", "left.png", "right_srgb.png", "--to", "left-right", "-o", "mixed.png"});
+  run_in(folder, {"pack", "left_srgb.png", "right_srgb.png", "--to", "left-right", "-o", "srgb.png"});
+  EXPECT_EQ(bytes_of(folder / "mixed.png"), bytes_of(folder / "srgb.png"));
 }
 
 TEST(PackCommand, MakesStereoCards) {

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "wheatstone/image/image.h"
@@ -15,6 +16,7 @@ namespace wheatstone {
 struct PlainPicture {
   Rgb8 colour;
   int width = 64, height = 64;
+  std::string colour_profile = {};
 };
 
 /// Encodes pictures into one HEIC file; false where no encoder is installed. `make(i)` makes each of `count`.
@@ -56,9 +58,12 @@ heif_image* make_heif_image(int width, int height, heif_chroma chroma, Fill fill
 inline bool put_heic(const std::filesystem::path& path, const std::vector<PlainPicture>& pictures) {
   return write_heic(path, pictures.size(), [&](std::size_t i) {
     const PlainPicture& plain = pictures[i];
-    return make_heif_image(plain.width, plain.height, heif_chroma_interleaved_RGB, [&](int, std::uint8_t* row) {
-      std::fill_n(reinterpret_cast<Rgb8*>(row), plain.width, plain.colour);
-    });
+    heif_image* image = make_heif_image(
+        plain.width, plain.height, heif_chroma_interleaved_RGB,
+        [&](int, std::uint8_t* row) { std::fill_n(reinterpret_cast<Rgb8*>(row), plain.width, plain.colour); });
+    const std::string& profile = plain.colour_profile;
+    if (!profile.empty()) heif_image_set_raw_color_profile(image, "prof", profile.data(), profile.size());
+    return image;
   });
 }
 

@@ -86,6 +86,13 @@ std::vector<MultiPictureEntry> views_among(std::vector<MultiPictureEntry> entrie
   return entries;
 }
 
+/// Takes pictures as the views, in their profile where that is wanted.
+void take_views(std::vector<PictureInProfile> pictures, const ReadViewsOptions& options, ViewsFile& file) {
+  if (options.keep_profile) file.colour_profile = bring_to_one_profile(pictures);
+  for (PictureInProfile& picture : pictures)
+    file.views.push_back(file.colour_profile.empty() ? in_srgb(std::move(picture)) : std::move(picture.picture));
+}
+
 /// The views of a JPEG with an index of them; none where it is an ordinary JPEG.
 std::optional<ViewsFile> multi_picture_views(std::string_view bytes, const fs::path& path,
                                              const ReadViewsOptions& options) {
@@ -109,8 +116,10 @@ std::optional<ViewsFile> multi_picture_views(std::string_view bytes, const fs::p
   if (is_layout_given(options)) refuse_layout(path, fmt::format("contains {} pictures", entries.size()));
   ViewsFile file;
   file.kind = "MPO";
+  std::vector<PictureInProfile> pictures;
   for (const MultiPictureEntry& entry : entries)
-    file.views.push_back(decode_jpeg(bytes.substr(entry.begin, entry.length), path));
+    pictures.push_back(decode_jpeg_in_profile(bytes.substr(entry.begin, entry.length), path));
+  take_views(std::move(pictures), options, file);
   check_one_size(file.views, path);
   return file;
 }
@@ -126,23 +135,25 @@ std::optional<ViewsFile> views_with_xmp(std::string_view bytes, const fs::path& 
   if (!right || !is_jpeg(*right)) refuse(path, "the right eye's picture in its XMP is not a JPEG");
   ViewsFile file;
   file.kind = "VR photograph";
-  file.views.push_back(read_image(path));
-  file.views.push_back(decode_jpeg(*right, path));
+  std::vector<PictureInProfile> pictures;
+  pictures.push_back(read_in_profile(path));
+  pictures.push_back(decode_jpeg_in_profile(*right, path));
+  take_views(std::move(pictures), options, file);
   check_one_size(file.views, path);
   return file;
 }
 
 std::optional<ViewsFile> heif_views(const fs::path& path, const ReadViewsOptions& options) {
-  std::vector<Image<Rgb8>> pictures = read_heif_pictures(path);
+  std::vector<PictureInProfile> pictures = read_heif_pictures(path);
   if (pictures.size() < 2) return {};
-  if (pictures.size() > 2 || !same_size(pictures[0], pictures[1]))
+  if (pictures.size() > 2 || !same_size(pictures[0].picture, pictures[1].picture))
     refuse(path, fmt::format("holds {} pictures, and the installed libheif {} does not report which are a stereo pair; "
                              "expected two of one size",
                              pictures.size(), heif_version()));
   if (is_layout_given(options)) refuse_layout(path, "contains 2 pictures");
   ViewsFile file;
   file.kind = "HEIC";
-  file.views = std::move(pictures);
+  take_views(std::move(pictures), options, file);
   file.note = fmt::format(
       "libheif {} does not report which eye a picture belongs to: the first is used for the left eye", heif_version());
   return file;
@@ -246,7 +257,10 @@ ViewsFile views_of_scan(ImageView<const Rgb8> picture, const fs::path& path, Sca
 std::optional<ViewsFile> views_in_one_picture(std::string_view bytes, const fs::path& path,
                                               const ReadViewsOptions& options) {
   if (!options.scan && holds_one_view(bytes, path, options)) return {};
-  Image<Rgb8> picture = read_image(path);
+  PictureInProfile read = read_in_profile(path);
+  // An anaglyph's colours tell its views apart.
+  const std::string profile = options.keep_profile && !options.scan ? bring_to_one_profile({&read, 1}) : std::string();
+  Image<Rgb8> picture = profile.empty() ? in_srgb(std::move(read)) : std::move(read.picture);
   if (options.scan) return views_of_scan(picture, path, *options.scan);
   std::optional<KnownLayout> known = told_layout(bytes, path, picture.width(), picture.height(), options);
   if (!known)
@@ -254,6 +268,7 @@ std::optional<ViewsFile> views_in_one_picture(std::string_view bytes, const fs::
   if (!known) return {};
   if (known->how == HowKnown::metadata && read_stereo_chunk(bytes)) picture = without_gap(std::move(picture));
   ViewsFile file;
+  file.colour_profile = profile;
   if (std::optional<Image<Rgb8>> even = without_middle(picture, known->layout)) {
     picture = std::move(*even);
     file.note = fmt::format("the middle {} belongs to neither view", is_side_by_side(known->layout) ? "column" : "row");

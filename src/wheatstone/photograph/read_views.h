@@ -27,6 +27,7 @@ struct ReadViewsOptions {
   std::optional<StereoLayout> layout;  ///< of a file that holds both views in one picture; none: find it
   std::optional<ScanLayout> scan;      ///< instead of `layout`: of a card or an anaglyph
   bool swap = false;                   ///< the eyes are the other way round than all else says
+  bool keep_profile = false;           ///< leave the views in the ICC profile of the file, where they share one
 };
 
 /// The options for the layout of that name, which may be one of a scan. Throws Error{wrong_usage} that lists the names.
@@ -42,7 +43,8 @@ struct ViewsFile {
   std::optional<StereoLayout> layout;  ///< as it lies in the file, before `swap`; none: a picture a view, or a scan
   std::optional<ScanLayout> scan;
   HowKnown how_known = HowKnown::metadata;
-  std::string note;  ///< what may be worth a look, one line; else empty
+  std::string note;            ///< what may be worth a look, one line; else empty
+  std::string colour_profile;  ///< of the views, with `keep_profile`; empty: sRGB
 };
 
 /// In words, as "side by side, left eye left (from its name)" or "2 pictures (from its metadata)".
@@ -56,10 +58,10 @@ std::string describe_views(const ViewsFile& file);
 /// - HEIC with exactly two pictures of one size: left, right.
 /// - GIF, animated WebP and animated PNG of exactly two frames: left, right.
 /// - any other picture: by the layout that is given, else its metadata, its name, its halves, in this order.
-/// EXIF orientation and ICC profiles are applied to each; squeezed halves are brought back to full size. The middle
-/// column or row of an odd number belongs to neither view.
-/// Throws Error: bad_input where the file is damaged, holds one view or an animation of more than two frames, or where
-/// no card is seen; wrong_usage where a layout is given for a file with a picture a view.
+/// EXIF orientation and, unless they are kept, ICC profiles are applied to each; squeezed halves are brought back to
+/// full size. The middle column or row of an odd number belongs to neither view. Throws Error: bad_input where the file
+/// is damaged, holds one view or an animation of more than two frames, or where no card is seen; wrong_usage where a
+/// layout is given for a file with a picture a view.
 ViewsFile read_views(const std::filesystem::path& path, const ReadViewsOptions& options = {});
 
 /// The same; none instead of an error where a sound picture gives no sign of holding two views.

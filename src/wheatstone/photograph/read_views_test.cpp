@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "scenes/colour_profiles.h"
 #include "scenes/heif_pictures.h"
 #include "scenes/test_photographs.h"
 #include "temporary_folder.h"
@@ -378,6 +379,20 @@ TEST(ReadViews, OfAHeicAreItsTwoPictures) {
   put_heic(folder / "c.heic", {{red}});
   expect_error(ErrorKind::bad_input, "c.heic: holds one view", [&] { read_views(folder / "c.heic"); });
   EXPECT_EQ(read_views(folder / "c.heic", {.layout = StereoLayout::top_bottom}).views[0].height(), 32);
+}
+
+TEST(ReadViews, KeepTheProfileThatTheyShare) {
+  const TemporaryFolder folder;
+  const std::string wide = display_p3();
+  if (!put_heic(folder / "a.heic", {{red, 64, 64, wide}, {blue, 64, 64, wide}})) GTEST_SKIP() << "no HEVC encoder";
+  const ViewsFile kept = read_views(folder / "a.heic", {.keep_profile = true}), srgb = read_views(folder / "a.heic");
+  EXPECT_EQ(kept.colour_profile, wide);
+  EXPECT_EQ(srgb.colour_profile, "");
+  EXPECT_GT(srgb.views[0](32, 32).r, kept.views[0](32, 32).r + 8);  // a wider red is a stronger one
+  put_heic(folder / "b.heic", {{red, 64, 64, wide}, {blue}});
+  const ViewsFile different = read_views(folder / "b.heic", {.keep_profile = true});
+  EXPECT_EQ(different.colour_profile, "");
+  EXPECT_EQ(different.views[0], srgb.views[0]);
 }
 
 }  // namespace wheatstone::read_views_test

@@ -9,6 +9,7 @@
 #include <memory>
 #include <span>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "wheatstone/pictures/colour_profile_internal.h"
@@ -153,11 +154,19 @@ bool changes_colours(const Transform& transform, bool grey) {
   });
 }
 
+/// None where the profile does not fit, or changes nothing.
+template <class Pixel>
+Transform transform_that_changes(std::string_view profile, bool grey) {
+  if (!is_whole(profile)) return nullptr;
+  Transform transform = transform_from<Pixel>(profile, grey);
+  return transform && changes_colours<Pixel>(transform, grey) ? std::move(transform) : nullptr;
+}
+
 template <class Pixel>
 void bring_any_to_srgb(Image<Pixel>& picture, std::string_view profile, bool grey) {
-  if (!is_whole(profile) || picture.empty()) return;
-  const Transform transform = transform_from<Pixel>(profile, grey);
-  if (!transform || !changes_colours<Pixel>(transform, grey)) return;
+  if (picture.empty()) return;
+  const Transform transform = transform_that_changes<Pixel>(profile, grey);
+  if (!transform) return;
   for (int y = 0; y < picture.height(); ++y) convert<Pixel>(transform, picture.row(y), picture.row(y), grey);
 }
 
@@ -169,6 +178,10 @@ void bring_to_srgb(Image<Rgb8>& picture, std::string_view profile, bool grey) {
 
 void bring_to_srgb(Image<Rgb16>& picture, std::string_view profile, bool grey) {
   bring_any_to_srgb(picture, profile, grey);
+}
+
+bool describes_other_colours(std::string_view profile) {
+  return transform_that_changes<Rgb8>(profile, false) != nullptr;
 }
 
 }  // namespace wheatstone

@@ -13,6 +13,10 @@ namespace wheatstone {
 void bring_to_srgb(Image<Rgb8>& picture, std::string_view profile, bool grey);
 void bring_to_srgb(Image<Rgb16>& picture, std::string_view profile, bool grey);
 
+/// Whether colours of three channels that the profile describes are others than sRGB's: then bring_to_srgb changes
+/// them.
+bool describes_other_colours(std::string_view profile);
+
 /// The ICC profile in the bytes of a PNG (chunk iCCP), WebP (chunk ICCP) or HEIF file, whose decoders do not hand it
 /// on; empty where there is none, or a damaged one, and for all other kinds of file.
 std::string embedded_profile(std::string_view bytes);

@@ -2,46 +2,20 @@
 
 #include <OpenImageIO/imageio.h>
 #include <gtest/gtest.h>
-#include <lcms2.h>
 
 #include <cmath>
 #include <cstdlib>
+#include <utility>
+#include <vector>
 
+#include "scenes/colour_profiles.h"
 #include "temporary_folder.h"
 #include "wheatstone/image/colour.h"
 #include "wheatstone/pictures/colour_profile_internal.h"
 #include "wheatstone/pictures/read_image.h"
+#include "wheatstone/pictures/write_image.h"
 
 namespace wheatstone::colour_profile_test {
-
-std::string saved(cmsHPROFILE profile) {
-  cmsUInt32Number size = 0;
-  cmsSaveProfileToMem(profile, nullptr, &size);
-  std::string bytes(size, '\0');
-  cmsSaveProfileToMem(profile, bytes.data(), &size);
-  cmsCloseProfile(profile);
-  return bytes;
-}
-
-/// Display P3: D65, wider primaries, sRGB's curve (here the nearest power).
-std::string display_p3() {
-  const cmsCIExyY white{0.3127, 0.3290, 1};
-  const cmsCIExyYTRIPLE primaries{{0.680, 0.320, 1}, {0.265, 0.690, 1}, {0.150, 0.060, 1}};
-  constexpr double srgb_curve[] = {2.4, 1 / 1.055, 0.055 / 1.055, 1 / 12.92, 0.04045};
-  cmsToneCurve* curve = cmsBuildParametricToneCurve(nullptr, 4, srgb_curve);
-  cmsToneCurve* curves[] = {curve, curve, curve};
-  std::string bytes = saved(cmsCreateRGBProfile(&white, &primaries, curves));
-  cmsFreeToneCurve(curve);
-  return bytes;
-}
-
-std::string grey_gamma(double gamma) {
-  const cmsCIExyY white{0.3127, 0.3290, 1};
-  cmsToneCurve* curve = cmsBuildGamma(nullptr, gamma);
-  std::string bytes = saved(cmsCreateGrayProfile(&white, curve));
-  cmsFreeToneCurve(curve);
-  return bytes;
-}
 
 void put_with_profile(const std::filesystem::path& path, Rgb8 colour, const std::string& profile) {
   constexpr int side = 16;
@@ -125,6 +99,48 @@ TEST(ColourProfile, ThatIsDamagedOrOfOtherChannelsIsLeftAside) {
   EXPECT_EQ(picture, before);
   bring_to_srgb(picture, whole, false);
   EXPECT_NE(picture, before);
+}
+
+TEST(ColourProfile, IsWrittenIntoEveryFormatThatTakesIt) {
+  const TemporaryFolder folder;
+  const Rgb8 colour{200, 120, 90};
+  const Image<Rgb8> picture(16, 16, colour);
+  for (const std::size_t padding : {0, 200'000}) {  // JPEG has it in parts of 64 kB
+    PictureNotes notes{.title = "A title"};
+    notes.colour_profile = display_p3() + std::string(padding, '\0');
+    for (const char* name : {"a.png", "a.jpg", "a.tif"}) {
+      SCOPED_TRACE(name);
+      ASSERT_TRUE(takes_profile(name));
+      write_image(folder / name, picture, notes);
+      const PictureInProfile read = read_in_profile(folder / name);
+      EXPECT_EQ(read.colour_profile, notes.colour_profile);
+      expect_near(read.picture(8, 8), colour, 1);
+      expect_near(read_image(folder / name)(8, 8), srgb_from_p3(colour), 2);
+    }
+  }
+  for (const char* name : {"a.webp", "a.ppm", "a.bmp"}) EXPECT_FALSE(takes_profile(name)) << name;
+}
+
+TEST(ColourProfile, StaysWhereAllPicturesShareIt) {
+  const Image<Rgb8> picture(2, 2, {200, 120, 90});
+  const std::string wide = display_p3(), srgb = saved(cmsCreate_sRGBProfile());
+  const auto brought = [&](std::vector<std::string> profiles) {
+    std::vector<PictureInProfile> pictures;
+    for (std::string& profile : profiles) pictures.push_back({picture, std::move(profile)});
+    const std::string kept = bring_to_one_profile(pictures);
+    for (const PictureInProfile& one : pictures) EXPECT_EQ(one.colour_profile, kept);
+    return std::pair(kept, std::move(pictures));
+  };
+  const auto [kept, same] = brought({wide, wide});
+  EXPECT_EQ(kept, wide);
+  EXPECT_EQ(same[1].picture, picture);
+  const auto [none, different] = brought({wide, ""});
+  EXPECT_EQ(none, "");
+  expect_near(different[0].picture(0, 0), srgb_from_p3({200, 120, 90}), 2);
+  EXPECT_EQ(different[1].picture, picture);
+  EXPECT_EQ(brought({srgb, srgb}).first, "");
+  EXPECT_EQ(brought({wide.substr(0, 90)}).first, "");
+  EXPECT_EQ(brought({}).first, "");
 }
 
 }  // namespace wheatstone::colour_profile_test

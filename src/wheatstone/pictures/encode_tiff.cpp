@@ -7,6 +7,7 @@
 #include <cstring>
 #include <memory>
 #include <sstream>
+#include <vector>
 
 #include "wheatstone/pictures/encoders_internal.h"
 
@@ -19,6 +20,8 @@ void put_notes(TIFF* tiff, const StoredPicture& picture) {
   };
   put_text(TIFFTAG_IMAGEDESCRIPTION, "ImageDescription");
   put_text(TIFFTAG_DATETIME, "DateTime");
+  if (const auto* profile = picture.find<std::vector<std::uint8_t>>("ICCProfile"))
+    TIFFSetField(tiff, TIFFTAG_ICCPROFILE, static_cast<std::uint32_t>(profile->size()), profile->data());
   const float pixels_an_inch = picture.value_of("XResolution", 0.f);
   if (pixels_an_inch <= 0) return;
   TIFFSetField(tiff, TIFFTAG_XRESOLUTION, pixels_an_inch);

@@ -15,7 +15,7 @@ inline constexpr std::string_view png_text = "png:text:";
 std::string encode_png(const StoredPicture& picture, const PixelRows& rows);
 
 /// A picture of one channel, grey, or three, with bytes or words, as a TIFF, deflated. Takes the attributes
-/// ImageDescription, DateTime, and XResolution in pixels an inch.
+/// ImageDescription, DateTime, ICCProfile, and XResolution in pixels an inch.
 EncodedPicture encode_tiff(const StoredPicture& picture, const PixelRows& rows);
 
 /// A picture of three channels with bytes as a WebP of the best quality that loses something; its sides have at most

@@ -11,7 +11,6 @@
 #include <utility>
 
 #include "wheatstone/error.h"
-#include "wheatstone/pictures/colour_profile_internal.h"
 #include "wheatstone/pictures/open_picture.h"
 
 namespace wheatstone {
@@ -47,7 +46,7 @@ std::string profile_of(const Handle& handle) {
   return error.code == heif_error_Ok ? profile : std::string();
 }
 
-Image<Rgb8> decoded(const fs::path& path, const Context& context, heif_item_id id) {
+PictureInProfile decoded(const fs::path& path, const Context& context, heif_item_id id) {
   heif_image_handle* found = nullptr;
   heif_error error = heif_context_get_image_handle(context.get(), id, &found);
   const Handle handle(found);
@@ -62,8 +61,7 @@ Image<Rgb8> decoded(const fs::path& path, const Context& context, heif_item_id i
                       heif_image_get_height(image.get(), heif_channel_interleaved));
   for (int y = 0; y < picture.height(); ++y)
     std::memcpy(picture.row(y).data(), plane + static_cast<std::ptrdiff_t>(y) * stride, picture.row(y).size_bytes());
-  bring_to_srgb(picture, profile_of(handle), false);
-  return picture;
+  return {std::move(picture), profile_of(handle)};
 }
 
 /// The grey levels of an image, 0..1.
@@ -142,14 +140,14 @@ std::string heif_exif(std::string_view bytes) {
   return begin <= exif.size() - offset_bytes ? exif.substr(offset_bytes + begin) : std::string();
 }
 
-std::vector<Image<Rgb8>> read_heif_pictures(const fs::path& path) {
+std::vector<PictureInProfile> read_heif_pictures(const fs::path& path) {
   const std::string bytes = read_picture_bytes(path);
   const Context context = open_context(bytes);
   if (!is_heif(bytes) || !context)
     throw Error(ErrorKind::bad_input, fmt::format("{}: not a HEIC file, or a damaged one", path.string()));
   std::vector<heif_item_id> ids(heif_context_get_number_of_top_level_images(context.get()));
   ids.resize(heif_context_get_list_of_top_level_image_IDs(context.get(), ids.data(), static_cast<int>(ids.size())));
-  std::vector<Image<Rgb8>> pictures;
+  std::vector<PictureInProfile> pictures;
   pictures.reserve(ids.size());
   for (const heif_item_id id : ids) pictures.push_back(decoded(path, context, id));
   return pictures;

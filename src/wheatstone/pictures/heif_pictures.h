@@ -7,12 +7,13 @@
 #include <vector>
 
 #include "wheatstone/image/image.h"
+#include "wheatstone/pictures/read_image.h"
 
 namespace wheatstone {
 
 /// Reads all pictures of a HEIC or AVIF file that stand on their own (no thumbnails, no depth or alpha), in the order
-/// of the file, each as read_image. Throws Error{bad_input}.
-std::vector<Image<Rgb8>> read_heif_pictures(const std::filesystem::path& path);
+/// of the file, each as read_in_profile. Throws Error{bad_input}.
+std::vector<PictureInProfile> read_heif_pictures(const std::filesystem::path& path);
 
 /// What the numbers of a HEIC file's depth image stand for (ISO/IEC 23008-2, sec. F.14.3.3).
 enum class HeifDepthKind {

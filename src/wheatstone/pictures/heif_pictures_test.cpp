@@ -14,9 +14,9 @@ TEST(HeifPictures, AreReadInTheOrderOfTheFile) {
   if (!put_heic(folder / "two.heic", {{{200, 40, 30}}, {{30, 60, 210}}})) GTEST_SKIP() << "no HEVC encoder";
   const auto pictures = read_heif_pictures(folder / "two.heic");
   ASSERT_EQ(pictures.size(), 2u);
-  EXPECT_NEAR(pictures[0](5, 5).r, 200, 6);
-  EXPECT_NEAR(pictures[1](5, 5).b, 210, 6);
-  EXPECT_EQ(pictures[0].width(), 64);
+  EXPECT_NEAR(pictures[0].picture(5, 5).r, 200, 6);
+  EXPECT_NEAR(pictures[1].picture(5, 5).b, 210, 6);
+  EXPECT_EQ(pictures[0].picture.width(), 64);
 }
 
 TEST(HeifPictures, CutShortAreRefused) {

@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <span>
 #include <string_view>
 
+#include "wheatstone/files/deflate.h"
 #include "wheatstone/pictures/jpeg.h"
 #include "wheatstone/pictures/png_chunks.h"
 
@@ -18,6 +21,12 @@ std::string two_bytes(std::size_t number) {
 /// PNG 1.2, sec. 4.2: all stand between the header and the pixels; eXIf as in its extensions of 2017.
 std::string png_notes(const PictureNotes& notes) {
   std::string chunks;
+  if (!notes.colour_profile.empty()) {
+    using namespace std::string_literals;
+    const std::span<const std::uint8_t> profile(reinterpret_cast<const std::uint8_t*>(notes.colour_profile.data()),
+                                                notes.colour_profile.size());
+    append_png_chunk("iCCP", "ICC profile\0\0"s + zlib_stream(profile), chunks);
+  }
   if (notes.pixels_an_inch > 0) {
     constexpr double inches_a_metre = 1 / 0.0254;
     const auto a_metre = static_cast<std::size_t>(std::lround(notes.pixels_an_inch * inches_a_metre));
@@ -34,7 +43,24 @@ std::string png_notes(const PictureNotes& notes) {
   return chunks;
 }
 
-/// JFIF's own segment comes first and says the density; EXIF's follows it.
+std::string jpeg_segment(char marker, std::string_view data) {
+  return '\xFF' + (marker + two_bytes(2 + data.size())) + std::string(data);
+}
+
+/// ICC.1, annex B.4: in parts that are numbered from 1.
+std::string jpeg_profile(std::string_view profile) {
+  constexpr std::size_t part_bytes = 65519, most_parts = 255;
+  const std::size_t parts = (profile.size() + part_bytes - 1) / part_bytes;
+  std::string segments;
+  if (parts > most_parts) return segments;
+  for (std::size_t i = 0; i < parts; ++i)
+    segments +=
+        jpeg_segment('\xE2', std::string("ICC_PROFILE\0", 12) + static_cast<char>(i + 1) + static_cast<char>(parts) +
+                                 std::string(profile.substr(i * part_bytes, part_bytes)));
+  return segments;
+}
+
+/// JFIF's own segment comes first and says the density; EXIF's follows it, and the colour profile.
 void put_jpeg_notes(std::string& jpeg, const PictureNotes& notes) {
   constexpr std::string_view jfif("\xFF\xE0\0\x10JFIF\0", 9);
   constexpr std::size_t start = 2, unit_at = start + 11, jfif_bytes = 18;
@@ -46,9 +72,10 @@ void put_jpeg_notes(std::string& jpeg, const PictureNotes& notes) {
   }
   constexpr std::string_view exif("Exif\0\0", 6);
   constexpr std::size_t most_bytes = 65533;
-  if (notes.exif.empty() || exif.size() + notes.exif.size() > most_bytes) return;
+  const bool has_exif = !notes.exif.empty() && exif.size() + notes.exif.size() <= most_bytes;
   jpeg.insert(has_jfif ? start + jfif_bytes : start,
-              "\xFF\xE1" + two_bytes(2 + exif.size() + notes.exif.size()) + std::string(exif) + notes.exif);
+              (has_exif ? jpeg_segment('\xE1', std::string(exif) + notes.exif) : std::string()) +
+                  jpeg_profile(notes.colour_profile));
 }
 
 }  // namespace

@@ -112,15 +112,44 @@ Image<Pixel> read_converted(const fs::path& path, PictureReader& reader) {
   return picture;
 }
 
+/// Where `profile` is given, the profile of colours that are no sRGB is put there, and they stay as they are.
 template <class Pixel = Rgb8>
-Image<Pixel> read_opened(const fs::path& path, const OpenPicture& open) {
+Image<Pixel> read_opened(const fs::path& path, const OpenPicture& open, std::string* profile = nullptr) {
   const StoredPicture& stored = open.reader->picture();
   Image<Pixel> picture = read_converted<Pixel>(path, *open.reader);
   // JPEG's decoder complains of stray bytes between the markers: they come from cameras and are harmless.
   const std::string complaint = open.reader->complaint();
   if (!complaint.empty() && open.reader->format() != "jpeg") refuse_damaged(path, complaint);
-  if (!conversion_of(stored).linear) bring_to_srgb(picture, open.colour_profile, stored.channels < 3);
+  const bool is_grey = stored.channels < 3, is_linear = conversion_of(stored).linear;
+  if (profile != nullptr && !is_grey && !is_linear)
+    *profile = open.colour_profile;
+  else if (!is_linear)
+    bring_to_srgb(picture, open.colour_profile, is_grey);
   return upright(std::move(picture), stored.value_of("Orientation", 1));
+}
+
+PictureInProfile in_profile(const fs::path& path, const OpenPicture& open) {
+  PictureInProfile read;
+  read.picture = read_opened(path, open, &read.colour_profile);
+  return read;
+}
+
+/// Both at once.
+template <class Read>
+auto read_two(const fs::path& first, const fs::path& second, Read read) {
+  const std::array paths{&first, &second};
+  std::array<decltype(read(first)), 2> pictures;
+  std::array<std::exception_ptr, 2> thrown;
+  tbb::parallel_for(std::size_t{0}, paths.size(), [&](std::size_t i) {
+    try {
+      pictures[i] = read(*paths[i]);
+    } catch (...) {
+      thrown[i] = std::current_exception();
+    }
+  });
+  for (const std::exception_ptr& error : thrown)
+    if (error) std::rethrow_exception(error);
+  return pictures;
 }
 
 std::vector<Image<Rgb8>> read_png_frames(std::string_view bytes, const fs::path& path, int most_frames) {
@@ -142,19 +171,32 @@ Image<Rgb16> read_deep_image(const fs::path& path) {
 }
 
 std::array<Image<Rgb8>, 2> read_two_images(const fs::path& first, const fs::path& second) {
-  const std::array paths{&first, &second};
-  std::array<Image<Rgb8>, 2> pictures;
-  std::array<std::exception_ptr, 2> thrown;
-  tbb::parallel_for(std::size_t{0}, paths.size(), [&](std::size_t i) {
-    try {
-      pictures[i] = read_image(*paths[i]);
-    } catch (...) {
-      thrown[i] = std::current_exception();
-    }
-  });
-  for (const std::exception_ptr& error : thrown)
-    if (error) std::rethrow_exception(error);
-  return pictures;
+  return read_two(first, second, read_image);
+}
+
+PictureInProfile read_in_profile(const fs::path& path) { return in_profile(path, open_picture(path)); }
+
+std::array<PictureInProfile, 2> read_two_in_profile(const fs::path& first, const fs::path& second) {
+  return read_two(first, second, read_in_profile);
+}
+
+PictureInProfile decode_jpeg_in_profile(std::string_view bytes, const fs::path& path) {
+  return in_profile(path, open_jpeg(bytes, path));
+}
+
+Image<Rgb8> in_srgb(PictureInProfile picture) {
+  bring_to_srgb(picture.picture, picture.colour_profile, false);
+  return std::move(picture.picture);
+}
+
+std::string bring_to_one_profile(std::span<PictureInProfile> pictures) {
+  const auto profile_of = [](const PictureInProfile& picture) -> const std::string& { return picture.colour_profile; };
+  const std::string shared = pictures.empty() ? std::string() : pictures.front().colour_profile;
+  const bool is_shared = std::ranges::all_of(
+      pictures, [&](const std::string& own) { return own == shared; }, profile_of);
+  if (is_shared && describes_other_colours(shared)) return shared;
+  for (PictureInProfile& picture : pictures) picture = {in_srgb(std::move(picture)), {}};
+  return {};
 }
 
 bool may_be_animated(std::string_view bytes) {

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,6 +21,25 @@ Image<Rgb16> read_deep_image(const std::filesystem::path& path);
 
 /// Two pictures, which are read at once. Throws as read_image, for the first of them where both cannot be read.
 std::array<Image<Rgb8>, 2> read_two_images(const std::filesystem::path& first, const std::filesystem::path& second);
+
+/// A picture in the colours of its file.
+struct PictureInProfile {
+  Image<Rgb8> picture;
+  std::string colour_profile;  ///< ICC, of three channels, as the file has it; empty: sRGB
+};
+
+/// The same, but for its colours.
+PictureInProfile read_in_profile(const std::filesystem::path& path);
+std::array<PictureInProfile, 2> read_two_in_profile(const std::filesystem::path& first,
+                                                    const std::filesystem::path& second);
+PictureInProfile decode_jpeg_in_profile(std::string_view bytes, const std::filesystem::path& path);
+
+/// Brings the picture to sRGB.
+Image<Rgb8> in_srgb(PictureInProfile picture);
+
+/// Brings pictures to sRGB, except where all have the same profile, of other colours than sRGB's: then they stay as
+/// they are, and it is returned; else nothing is.
+std::string bring_to_one_profile(std::span<PictureInProfile> pictures);
 
 /// The same of a JPEG in memory; `path` stands for it in messages.
 Image<Rgb8> decode_jpeg(std::string_view bytes, const std::filesystem::path& path);

@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "wheatstone/error.h"
 #include "wheatstone/files/whole_file.h"
@@ -17,9 +19,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
+const std::string colour_space = "oiio:ColorSpace";
+
 StoredPicture described(int width, int height, int channels) {
   StoredPicture picture{width, height, channels};
-  picture.put("oiio:ColorSpace", "sRGB");
+  picture.put(colour_space, "sRGB");
   return picture;
 }
 
@@ -28,6 +32,8 @@ void put_tiff_notes(StoredPicture& picture, const PictureNotes& notes) {
   if (!notes.title.empty()) picture.put("ImageDescription", notes.title);
   if (!notes.taken.empty()) picture.put("DateTime", notes.taken);
   if (notes.pixels_an_inch > 0) picture.put("XResolution", static_cast<float>(notes.pixels_an_inch));
+  const std::string& profile = notes.colour_profile;
+  if (!profile.empty()) picture.put("ICCProfile", std::vector<std::uint8_t>(profile.begin(), profile.end()));
 }
 
 template <class Pixel>
@@ -39,6 +45,7 @@ void write_encoded(const fs::path& path, ImageView<const Pixel> image, const Pic
   StoredPicture picture =
       described(image.width(), image.height(), static_cast<int>(8 * sizeof(Pixel)) / rows.kind.bits);
   picture.kind = rows.kind;
+  if (!notes.colour_profile.empty()) picture.attributes.erase(colour_space);
   const std::string ending = ending_of(path);
   if (ending == ".tif" || ending == ".tiff") put_tiff_notes(picture, notes);
   write_whole_file(path, with_notes(encode_picture(path, picture, rows), notes));
@@ -77,6 +84,11 @@ void write_image(const fs::path& path, ImageView<const Rgb16> image) {
     throw Error(ErrorKind::wrong_usage,
                 fmt::format("{}: expected a PNG or a TIFF, which keep 16 bits a channel", path.string()));
   write_encoded(path, image, {});
+}
+
+bool takes_profile(const fs::path& path) {
+  const std::string ending = ending_of(path);
+  return takes_sixteen_bits(path) || ending == ".jpg" || ending == ".jpeg";
 }
 
 bool takes_sixteen_bits(const fs::path& path) {

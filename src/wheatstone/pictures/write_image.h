@@ -18,11 +18,15 @@ bool is_picture_name(const std::filesystem::path& path);
 
 /// Writes a picture in the format of its file name (picture_endings), under a temporary name that becomes the real one
 /// when the file is whole. Throws Error{wrong_usage} for another ending, Error{cannot_read_write}; then nothing is left
-/// behind. JPEG and PNG take all notes, TIFF the title, the time and the pixels an inch, the others none.
+/// behind. JPEG and PNG take all notes, TIFF the title, the time, the pixels an inch and the colour profile, the others
+/// none.
 void write_image(const std::filesystem::path& path, ImageView<const Rgb8> image, const PictureNotes& notes = {});
 void write_image(const std::filesystem::path& path, ImageView<const std::uint8_t> image);
 /// The same with 16 bits a channel; only where takes_sixteen_bits.
 void write_image(const std::filesystem::path& path, ImageView<const Rgb16> image);
+
+/// Whether a picture of this name is one of a format that takes the notes' colour profile: PNG, JPEG or TIFF.
+bool takes_profile(const std::filesystem::path& path);
 
 /// Whether a picture of this name is one of a format that keeps 16 bits a channel: PNG or TIFF.
 bool takes_sixteen_bits(const std::filesystem::path& path);
