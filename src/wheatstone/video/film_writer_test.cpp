@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
+#include <malloc.h>
 #include <sys/resource.h>
 
 #include <csignal>
@@ -438,6 +439,24 @@ TEST(FilmWriter, LayoutsComeBackAndAreShownToOthers) {
     if (line.find("stereoscopic information: type - ") != std::string::npos)
       films.insert(line.substr(0, line.find(']')));
   EXPECT_EQ(films.size(), said.size()) << shown;
+}
+
+// libx265 leaves decoding times of films of one and two frames to what its memory holds.
+TEST(FilmWriter, HevcOfAFewFramesIsWrittenWhateverMemoryHolds) {
+  const TemporaryFolder folder;
+  for (const char* name : {"a.mkv", "a.mp4"})
+    for (const int byte : {0x02, 0xfd})  // numbers far above zero, and far below
+      for (int count = 1; count <= 3; ++count) {
+        SCOPED_TRACE(fmt::format("{} frames, {}", count, name));
+        mallopt(M_PERTURB, byte);
+        make_film(folder / name, count, {.codec = "hevc"}, 320, 192);
+        mallopt(M_PERTURB, 0);
+        const std::vector<Frame> read = frames_of(folder / name);
+        ASSERT_EQ(read.size(), static_cast<std::size_t>(count));
+        for (int i = 0; i < count; ++i) EXPECT_GT(psnr_db(read[i].picture, moving_picture(320, 192, i)), 30) << i;
+        EXPECT_EQ(read.front().seconds(), 0);
+        EXPECT_LT(read.back().seconds(), 0.2);
+      }
 }
 
 TEST(FilmWriter, HevcInMp4SaysItsLayoutInABox) {

@@ -183,6 +183,7 @@ void VideoEncoder::send(const Frame& frame, const PacketSink& sink) {
   coded->color_trc = codec_->color_trc;
   coded->sample_aspect_ratio = codec_->sample_aspect_ratio;
   durations_[frame.pts] = frame.duration;
+  ++sent_;
   const int error = avcodec_send_frame(codec_.get(), coded.get());
   if (error < 0) throw Error(ErrorKind::cannot_read_write, fmt::format("encoder: {}", libav_reason(error)));
   receive(sink);
@@ -198,6 +199,10 @@ void VideoEncoder::receive(const PacketSink& sink) {
     const int error = avcodec_receive_packet(codec_.get(), packet_.get());
     if (error == AVERROR(EAGAIN) || error == AVERROR_EOF) return;
     if (error < 0) throw Error(ErrorKind::cannot_read_write, fmt::format("encoder: {}", libav_reason(error)));
+    // libx265 3.5 never sets the decoding times of films that are too short to be reordered
+    // (github.com/Multicorewareinc/x265/issues/781).
+    constexpr int reordered_frames = 3;
+    if (codec_->codec_id == AV_CODEC_ID_HEVC && sent_ < reordered_frames) packet_->dts = packet_->pts;
     if (const auto duration = durations_.extract(packet_->pts)) packet_->duration = duration.mapped();
     sink(*packet_);
     av_packet_unref(packet_.get());

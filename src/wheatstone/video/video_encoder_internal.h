@@ -44,6 +44,7 @@ class VideoEncoder {
   std::optional<FrameFromRgb<Rgb8>> frame_from_rgb_;
   std::optional<FrameFromRgb<Rgb16>> frame_from_deep_;  ///< of codecs with more than 8 bits
   OwnedPacket packet_ = new_packet();
+  int sent_ = 0;                                    ///< frames
   std::map<std::int64_t, std::int64_t> durations_;  ///< of frames inside, by pts: encoders forget them
 };
 
