@@ -82,10 +82,12 @@ TrustedPlaces trusted_places(const cv::Mat& picture, const BandMatch& match) {
   constexpr int large_share = 8;  // of the width
   constexpr double mostly = 0.8 * 255;
   const int large_px = std::max(picture.cols / large_share, plain_window_px) | 1;
+  // Twice the rows reach all of them from everywhere; filters take time and memory for each row of their windows.
+  const cv::Size window(large_px, std::min(large_px, 2 * picture.rows - 1));
   cv::Mat large;
-  cv::boxFilter(plain, large, -1, {large_px, large_px});
+  cv::boxFilter(plain, large, -1, window);
   large = large > mostly;
-  cv::dilate(large, large, cv::getStructuringElement(cv::MORPH_RECT, {large_px, large_px}));
+  cv::dilate(large, large, cv::getStructuringElement(cv::MORPH_RECT, window));
   plain &= large;
   cv::dilate(plain, plain, cv::getStructuringElement(cv::MORPH_RECT, {plain_window_px, plain_window_px}));
   constexpr double least_noise = 0.5;

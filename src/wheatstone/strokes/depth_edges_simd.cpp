@@ -51,14 +51,15 @@ void look_ahead(int window, std::size_t unit, std::size_t count, std::int16_t* n
   if (seen < window) widen(count, static_cast<std::size_t>(window - seen) * unit, nearest, farthest);
 }
 
-/// Finds the extremes of the windows around the columns of each row in [first, end), and of `reach` rows more on both
-/// sides, within the picture.
-void look_at_rows(ImageView<const std::int16_t> steps, int reach, int first, int end, Extremes& extremes) {
+/// Finds the extremes of the windows, of `reach` columns on both sides, around the columns of each row in
+/// [first, end), and of `rows_reach` rows more on both sides, within the picture.
+void look_at_rows(ImageView<const std::int16_t> steps, int reach, int rows_reach, int first, int end,
+                  Extremes& extremes) {
   std::ranges::fill(extremes.nearest, std::numeric_limits<std::int16_t>::min());
   std::ranges::fill(extremes.farthest, std::numeric_limits<std::int16_t>::max());
   const auto width = static_cast<std::size_t>(steps.width());
-  for (int y = std::max(first - reach, 0); y < std::min(end + reach, steps.height()); ++y) {
-    const std::size_t at = static_cast<std::size_t>(y - first + reach) * static_cast<std::size_t>(extremes.stride);
+  for (int y = std::max(first - rows_reach, 0); y < std::min(end + rows_reach, steps.height()); ++y) {
+    const std::size_t at = static_cast<std::size_t>(y - first + rows_reach) * static_cast<std::size_t>(extremes.stride);
     std::int16_t* const nearest = extremes.nearest.data() + at;
     std::int16_t* const farthest = extremes.farthest.data() + at;
     std::ranges::copy(steps.row(y), nearest + reach);
@@ -71,11 +72,12 @@ void mark(const DepthEdgeMarks& wanted, int first, int end, Image<std::uint8_t>&
   const Steps s;
   const hn::Rebind<std::uint8_t, Steps> bytes;
   const int lanes = static_cast<int>(hn::Lanes(s)), reach = wanted.reach_px, width = marks.width();
+  const int rows_reach = std::min(reach, marks.height());  // less than a broad brush's, in a panorama
   // Rows are padded so far that what passes over a row's end leaves the next one's columns alone.
-  Extremes extremes(end - first + 2 * reach, width + 2 * reach + widest_vector);
+  Extremes extremes(end - first + 2 * rows_reach, width + 2 * reach + widest_vector);
   const auto stride = static_cast<std::size_t>(extremes.stride);
-  look_at_rows(wanted.steps, reach, first, end, extremes);
-  look_ahead(2 * reach + 1, stride, static_cast<std::size_t>(end - first) * stride, extremes.nearest.data(),
+  look_at_rows(wanted.steps, reach, rows_reach, first, end, extremes);
+  look_ahead(2 * rows_reach + 1, stride, static_cast<std::size_t>(end - first) * stride, extremes.nearest.data(),
              extremes.farthest.data());
   const auto threshold = hn::Set(s, wanted.threshold);
   std::vector<std::int16_t> own_row(static_cast<std::size_t>(width) + widest_vector);
