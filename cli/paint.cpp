@@ -106,7 +106,7 @@ PhotographResult paint_one(const Arguments& arguments, const PhotographJob& job,
   const ViewsOutput output = output_of(arguments, job.output);
   ResultOptions results = arguments.results;
   results.photographs =
-      arguments.photographs.rectify != RectifyPolicy::never || is_single_picture(arguments) || is_model(job);
+      arguments.photographs.rectify != RectifyPolicy::never || is_single_picture(arguments) || is_of_model(job);
   std::optional<OutputFolder> folder;
   if (!arguments.display.name.empty()) {
     check_views_output(output);
@@ -118,7 +118,7 @@ PhotographResult paint_one(const Arguments& arguments, const PhotographJob& job,
   const ReadPhotograph& photograph = subject.photograph;
   const StereoPair& pictures = photograph.pair.pictures;
   if (pictures.right.empty()) refuse_for_flat(arguments, photograph.name);
-  results.photographs = subject.strength || photograph.pair.rectification || is_model(job);
+  results.photographs = subject.strength || photograph.pair.rectification || is_of_model(job);
   if (!arguments.display.name.empty()) return paint_for_display(arguments, job, subject, options, session);
 
   const DepthPlacing placing = depth_placing_from(arguments);
@@ -131,7 +131,7 @@ PhotographResult paint_one(const Arguments& arguments, const PhotographJob& job,
                                 session.progress);
   redraw_with_depth(placing, result);
   const PaintingMeasures* measured = measures ? &*measures : nullptr;
-  const bool is_photograph = !subject.strength && !is_model(job);
+  const bool is_photograph = !subject.strength && !is_of_model(job);
   const PaintingReport told{result, options.style, is_photograph ? &photograph.pair : nullptr, measured,
                             photograph.whole};
   write_results(*folder, pictures, told, results, session.progress);
@@ -149,7 +149,7 @@ Arguments arguments_of(const Arguments& given, const PhotographJob& job) {
   of_one.depth.carried = job.right.empty() && finds_depth_in_file(of_one);
   // A layout is that of files that hold both views.
   if (!job.right.empty() || has_depth(of_one.depth)) of_one.photographs.layout.clear();
-  if (!is_model(job)) of_one.results.notes = read_photograph_notes(job.left, given.keep_location);
+  if (!is_of_model(job)) of_one.results.notes = read_photograph_notes(job.left, given.keep_location);
   of_one.files = given.files;
   of_one.files.insert(of_one.files.end(), {job.left, job.right, job.depth});
   return of_one;

@@ -64,10 +64,10 @@ bool is_painting_file(const PaintArguments& arguments) {
 }
 
 bool is_model_file(const PaintArguments& arguments) {
-  return arguments.files.size() == 1 && is_model({.left = arguments.files.front()});
+  return arguments.files.size() == 1 && is_of_model({.left = arguments.files.front()});
 }
 
-bool is_model(const PhotographJob& job) { return job.right.empty() && wheatstone::is_model(job.left); }
+bool is_of_model(const PhotographJob& job) { return job.right.empty() && wheatstone::is_model(job.left); }
 
 bool is_photograph_folder(const PaintArguments& arguments) {
   return arguments.files.size() == 1 && is_folder(arguments.files.front());
@@ -94,7 +94,7 @@ bool is_single_picture(const PaintArguments& arguments) {
 
 PaintSubject read_subject(const PaintArguments& arguments, const PhotographJob& job, PaintPhotographOptions& options,
                           const Session& session) {
-  if (is_model(job)) return read_model_subject(arguments, job, options, session);
+  if (is_of_model(job)) return read_model_subject(arguments, job, options, session);
   StereoArguments files = arguments.photographs;
   files.left = job.left;
   files.right = job.right;

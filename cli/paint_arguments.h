@@ -64,7 +64,7 @@ bool are_several(const PaintArguments& arguments);
 bool finds_depth_in_file(const PaintArguments& arguments);
 
 /// Whether it is a model of triangles.
-bool is_model(const PhotographJob& job);
+bool is_of_model(const PhotographJob& job);
 
 /// Tells which files are photographs of their own. One file holds both views. Two files are LEFT and RIGHT, unless both
 /// are named as stereo photographs (.mpo, .jps, .pns) or --layout says that each holds both views; three or more hold

@@ -26,7 +26,7 @@ double share_of_new(double passed_s, double constant_s) {
 
 constexpr double silent_after_s = 1;
 constexpr double eye_separation_cm = 6.5;
-constexpr double farthest = 100;  ///< as of the command `head`
+constexpr double farthest_place = 100;  ///< as of the command `head`
 
 }  // namespace
 
@@ -98,7 +98,7 @@ std::optional<float> HeadTracker::newest(double now_s, const HeadFilterOptions& 
   heard_at_s_ = now_s;
   farther_cm_ = last->z_cm;
   const double place = filter_.add(last->x_cm / eye_separation_cm, now_s, options);
-  return static_cast<float>(std::clamp(place, -farthest, farthest));
+  return static_cast<float>(std::clamp(place, -farthest_place, farthest_place));
 }
 
 bool HeadTracker::is_silent(double now_s) const { return !heard_at_s_ || now_s - *heard_at_s_ > silent_after_s; }

@@ -10,7 +10,7 @@
 namespace wheatstone {
 namespace {
 
-constexpr int tile_px = 8;
+constexpr int relief_tile_px = 8;
 
 /// Parameters of relief_strokes.comp: numbers of four bytes, without gaps.
 struct ReliefWork {
@@ -94,7 +94,7 @@ void GpuRelief::light(const GpuSurfaces& surfaces, const GpuBuffer& planes, std:
   const GpuBuffer heights(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_) * views.size() *
                           sizeof(float));
   const auto count = static_cast<std::uint32_t>(views.size());
-  relief_strokes_.run({groups_of(width_, tile_px), groups_of(height_, tile_px), count},
+  relief_strokes_.run({groups_of(width_, relief_tile_px), groups_of(height_, relief_tile_px), count},
                       {&of_work, &*strokes_, &*segments_, &cells.cell_first, &cells.in_cells, &planes, &heights});
   light_relief_.run({groups_of(width_, 64), static_cast<std::uint32_t>(height_), count}, {&of_work, &heights, &pixels});
 }

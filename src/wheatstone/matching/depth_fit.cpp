@@ -26,7 +26,7 @@ Image<float> luma_of(ImageView<const Rgb8> picture) {
 }
 
 /// A disparity that was matched, and the inverse of the depth there.
-struct Sample {
+struct DepthSample {
   double inverse_depth, disparity;
 };
 
@@ -34,7 +34,7 @@ struct Sample {
 struct LineSums {
   double weight = 0, x = 0, y = 0, xx = 0, xy = 0;
 
-  void add(const Sample& sample) {
+  void add(const DepthSample& sample) {
     const auto& [inverse, disparity] = sample;
     weight += 1, x += inverse, y += disparity, xx += inverse * inverse, xy += inverse * disparity;
   }
@@ -46,13 +46,13 @@ struct LineSums {
   }
 };
 
-double distance(const DepthFit& fit, const Sample& sample) {
+double distance(const DepthFit& fit, const DepthSample& sample) {
   return std::abs(fit.scale * sample.inverse_depth + fit.offset_px - sample.disparity);
 }
 
 /// The line on which most samples lie to within `tolerance_px`: of many lines through two of them (RANSAC, Fischler &
 /// Bolles 1981), the best, and then the one that fits those on it. None where most samples lie on no line.
-std::optional<DepthFit> consensus(const std::vector<Sample>& samples, double tolerance_px) {
+std::optional<DepthFit> consensus(const std::vector<DepthSample>& samples, double tolerance_px) {
   constexpr std::size_t tries = 400, judged = 4000;
   if (samples.size() < 2) return {};
   const std::size_t step = std::max<std::size_t>(samples.size() / judged, 1);
@@ -74,7 +74,7 @@ std::optional<DepthFit> consensus(const std::vector<Sample>& samples, double tol
   }
   for (int i = 0; i < 3 && best; ++i) {
     LineSums sums;
-    for (const Sample& sample : samples)
+    for (const DepthSample& sample : samples)
       if (distance(*best, sample) < tolerance_px) sums.add(sample);
     if (const std::optional<DepthFit> better = sums.line()) best = better;
   }
@@ -135,7 +135,7 @@ std::optional<DepthFit> matched_fit(const StereoPair& eyes, ImageView<const floa
   if (!range) return {};
   const std::optional<MatchedPair> matched = match_if_any(eyes, {.range = range});
   if (!matched) return {};
-  std::vector<Sample> samples;
+  std::vector<DepthSample> samples;
   for (int y = 0; y < left_depth.height(); ++y)
     for (int x = 0; x < left_depth.width(); ++x)
       if (matched->left_confidence(x, y) == confirmed && left_depth(x, y) > 0)

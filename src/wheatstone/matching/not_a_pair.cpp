@@ -128,20 +128,20 @@ cv::Mat luminance(const Image<Rgb8>& picture) {
   return small;
 }
 
-struct Features {
+struct DescribedPoints {
   std::vector<cv::KeyPoint> points;
   cv::Mat descriptors;
 };
 
-Features features_of(const Image<Rgb8>& picture) {
+DescribedPoints features_of(const Image<Rgb8>& picture) {
   constexpr int most = 1000;
-  Features found;
+  DescribedPoints found;
   cv::SIFT::create(most)->detectAndCompute(luminance(picture), {}, found.points, found.descriptors);
   return found;
 }
 
 /// Points of both that are each other's best and clearly better than the second best (Lowe's ratio).
-void matched_points(const Features& left, const Features& right, std::vector<cv::Point2f>& in_left,
+void matched_points(const DescribedPoints& left, const DescribedPoints& right, std::vector<cv::Point2f>& in_left,
                     std::vector<cv::Point2f>& in_right) {
   constexpr float clearly_better = 0.75f;
   std::vector<std::vector<cv::DMatch>> forth;
@@ -163,7 +163,7 @@ constexpr double least_block_share = 0.1;  // of a pair
 
 PairEvidence pair_evidence(const StereoPair& pair) {
   PairEvidence evidence;
-  const Features left = features_of(pair.left), right = features_of(pair.right);
+  const DescribedPoints left = features_of(pair.left), right = features_of(pair.right);
   evidence.left_features = static_cast<int>(left.points.size());
   evidence.right_features = static_cast<int>(right.points.size());
   evidence.block_share = block_agreement(pair.left, pair.right, least_block_share).share;

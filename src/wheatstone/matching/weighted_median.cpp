@@ -14,7 +14,7 @@
 namespace wheatstone {
 namespace {
 
-struct Sample {
+struct WeightedDisparity {
   float disparity;
   int weight;
 };
@@ -28,11 +28,11 @@ std::array<int, 3 * 255 + 1> weights_by_distance() {
   return weights;
 }
 
-float median_of(std::vector<Sample>& samples) {
-  std::ranges::sort(samples, {}, &Sample::disparity);
+float median_of(std::vector<WeightedDisparity>& samples) {
+  std::ranges::sort(samples, {}, &WeightedDisparity::disparity);
   int all = 0, below = 0;
-  for (const Sample& sample : samples) all += sample.weight;
-  for (const Sample& sample : samples) {
+  for (const WeightedDisparity& sample : samples) all += sample.weight;
+  for (const WeightedDisparity& sample : samples) {
     below += sample.weight;
     if (2 * below >= all) return sample.disparity;
   }
@@ -53,7 +53,7 @@ Image<float> weighted_median(const Image<float>& disparity, const cv::Mat& pictu
   const float least_step = std::max(1.f, static_cast<float>(width) / 1000);
   Image<float> result = disparity;
   tbb::parallel_for(0, height, [&](int y) {
-    std::vector<Sample> samples;
+    std::vector<WeightedDisparity> samples;
     const auto* own = picture.ptr<cv::Vec3b>(y);
     for (int x = 0; x < width; ++x) {
       if (largest.at<float>(y, x) - least.at<float>(y, x) <= least_step) continue;

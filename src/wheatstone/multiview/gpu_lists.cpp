@@ -16,7 +16,7 @@ namespace wheatstone {
 namespace {
 
 // As splat_lists.glsl and gather_splats.comp have them.
-constexpr int band_rows = 2, list_columns = 2, gathered_columns = 4, group_side = 8;
+constexpr int list_rows = 2, list_columns = 2, gathered_columns = 4, group_side = 8;
 constexpr std::size_t entry_bytes = 32;
 /// Mesa's llvmpipe 22 ends the loops of an invocation after 65535 iterations in all.
 constexpr std::size_t most_iterations = 65000;
@@ -57,7 +57,7 @@ void set_pictures(const RenderJob& job, const GpuPictures& pictures, GpuTargets 
     const Window here = window_in(window, order);
     ListWork::Picture& picture = work.pictures[p];
     picture.rows = order.rows;
-    picture.bands = (order.rows + band_rows - 1) / band_rows;
+    picture.bands = (order.rows + list_rows - 1) / list_rows;
     picture.lists_left = here.left;
     picture.lists_a_band = static_cast<int>((here.right - here.left) / list_columns) + 1;
     picture.left = pictures.left[p];

@@ -48,7 +48,7 @@ void take_rows(const Slice& slice, int top, LightBand& band) {
   }
 }
 
-struct Workplace {
+struct RenderedBand {
   LightBand plane;
   SliceBand slices;
 };
@@ -80,12 +80,12 @@ void for_each_slice_band(const SliceStack& stack, float largest_shift, bool hide
                          const std::function<void(const SliceBand& slices, int top)>& take) {
   const int around = static_cast<int>(std::ceil(largest_shift)) + 2;
   const int planes = static_cast<int>(stack.slices.size());
-  tbb::enumerable_thread_specific<Workplace> workplaces([&] {
-    return Workplace{LightBand(-around, stack.width + around, band_rows, LightBand::most_channels),
-                     SliceBand(-around, stack.width + around, band_rows, planes, hides)};
+  tbb::enumerable_thread_specific<RenderedBand> workplaces([&] {
+    return RenderedBand{LightBand(-around, stack.width + around, band_rows, LightBand::most_channels),
+                        SliceBand(-around, stack.width + around, band_rows, planes, hides)};
   });
   tbb::parallel_for(0, (stack.height + band_rows - 1) / band_rows, [&](int b) {
-    Workplace& work = workplaces.local();
+    RenderedBand& work = workplaces.local();
     for (int plane = 0; plane < planes; ++plane) {
       take_rows(stack.slices[plane], b * band_rows, work.plane);
       work.slices.take(plane, work.plane);

@@ -21,13 +21,13 @@ namespace wheatstone {
 namespace {
 
 /// Columns that not all types of particles have.
-constexpr std::array own_columns{&Cloud::density, &Cloud::temperature, &Cloud::smoothing_length, &Cloud::mass};
+constexpr std::array columns_of_types{&Cloud::density, &Cloud::temperature, &Cloud::smoothing_length, &Cloud::mass};
 
 /// One type after the other.
 struct TypesInTurn {
   std::vector<CloudSource> sources;
   std::vector<TypeColour> colours;
-  std::array<bool, own_columns.size()> of_all;  // whether every type has a column
+  std::array<bool, columns_of_types.size()> of_all;  // whether every type has a column
   bool some_light_changes = false;
   std::size_t at = 0;
 
@@ -35,8 +35,8 @@ struct TypesInTurn {
     for (; at < sources.size(); ++at) {
       Cloud cloud = sources[at].next(most);
       if (cloud.size() == 0) continue;
-      for (std::size_t column = 0; column < own_columns.size(); ++column)
-        if (!of_all[column]) (cloud.*own_columns[column]).clear();
+      for (std::size_t column = 0; column < columns_of_types.size(); ++column)
+        if (!of_all[column]) (cloud.*columns_of_types[column]).clear();
       cloud.colour.assign(cloud.size(), colours[at].colour);
       if (some_light_changes) cloud.presence.assign(cloud.size(), colours[at].light);
       return cloud;
@@ -105,8 +105,8 @@ CloudSource open_types(const std::filesystem::path& path, const CloudChoice& cho
       throw Error(ErrorKind::wrong_usage, fmt::format("the particle type '{}' has several colours", type.type));
     of_type.type = type.type;
     const Cloud first = first_of_type(path, of_type);
-    for (std::size_t column = 0; column < own_columns.size(); ++column)
-      types->of_all[column] = types->of_all[column] && !(first.*own_columns[column]).empty();
+    for (std::size_t column = 0; column < columns_of_types.size(); ++column)
+      types->of_all[column] = types->of_all[column] && !(first.*columns_of_types[column]).empty();
     of_type.origin = first.origin;  // one for all types
     CloudSource opened = open_cloud(path, of_type);
     count += opened.count.value_or(0);

@@ -25,7 +25,6 @@
 namespace wheatstone {
 namespace {
 
-constexpr std::size_t most_bytes = std::size_t{1} << 31;
 constexpr float kitti_scale = 256;
 constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
 /// Disparities beyond this are somebody's way of saying unknown.
@@ -113,7 +112,7 @@ Steps steps_said_by(std::string_view bytes, float usual_scale) {
 }
 
 Image<float> read_any_disparity(const std::filesystem::path& path, std::optional<float> scale) {
-  const std::string bytes = read_whole_file(path, most_bytes);
+  const std::string bytes = read_whole_file(path, most_picture_bytes);
   if (bytes.starts_with("Pf") || bytes.starts_with("PF")) {
     Image<float> disparity = decode_pfm(bytes, path.string());
     invalidate(disparity, {scale.value_or(1), 0}, false);

@@ -19,8 +19,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t most_bytes = std::size_t{1} << 31;
-
 [[noreturn]] void refuse_channel(const fs::path& path, std::string_view complaint) {
   throw Error(ErrorKind::bad_input, fmt::format("{}: {}", path.string(), complaint));
 }
@@ -44,7 +42,7 @@ StoredChannel first_channel(PictureReader& reader, const fs::path& path, std::st
   const auto [width, height] = std::pair(picture.width, picture.height);
   const std::size_t bytes = static_cast<std::size_t>(width) * static_cast<std::size_t>(height) *
                             static_cast<std::size_t>(picture.channels * picture.kind.bits / 8);
-  if (width < 1 || height < 1 || picture.depth > 1 || bytes > most_bytes)
+  if (width < 1 || height < 1 || picture.depth > 1 || bytes > most_picture_bytes)
     refuse_channel(path, fmt::format("is {}x{} pixels, which is not a valid size for {}", width, height, what));
   if (picture.channels >= 3 && colours == GreyInColours::refused)
     refuse_channel(path, fmt::format("is a picture for looking at, with {} channels; expected {} with one channel",

@@ -118,7 +118,7 @@ void fill_from_farther_neighbour(MappedEye& mapped) {
   });
 }
 
-Rgb8 blend(Rgb8 a, Rgb8 b, float share_of_b) {
+Rgb8 mixed_colour(Rgb8 a, Rgb8 b, float share_of_b) {
   const auto channel = [share_of_b](std::uint8_t from, std::uint8_t to) {
     return static_cast<std::uint8_t>(static_cast<float>(from) +
                                      share_of_b * (static_cast<float>(to) - static_cast<float>(from)) + 0.5f);
@@ -144,7 +144,7 @@ void merge_visible(const MappedEye& right, MappedEye& left) {
       if (std::isnan(other) || near > other + same_surface_px) continue;
       Rgb8& colour = left.picture(x, y);
       if (near >= other - same_surface_px) {
-        colour = blend(colour, right.picture(x, y), share_of_right(colour, right.picture(x, y)));
+        colour = mixed_colour(colour, right.picture(x, y), share_of_right(colour, right.picture(x, y)));
         near = 0.5f * (near + other);
       } else {
         colour = right.picture(x, y);
@@ -158,7 +158,7 @@ void merge_visible(const MappedEye& right, MappedEye& left) {
 void merge_average(const MappedEye& right, MappedEye& left) {
   tbb::parallel_for(0, left.picture.height(), [&](int y) {
     for (int x = 0; x < left.picture.width(); ++x) {
-      left.picture(x, y) = blend(left.picture(x, y), right.picture(x, y), 0.5f);
+      left.picture(x, y) = mixed_colour(left.picture(x, y), right.picture(x, y), 0.5f);
       left.disparity(x, y) = 0.5f * (left.disparity(x, y) + right.disparity(x, y));
     }
   });

@@ -18,7 +18,7 @@ struct PaintInRow {
 };
 
 /// One side of the paint, where outlines matter to views so many eye separations to the other side.
-struct Side {
+struct OutlineSide {
   int step;  ///< −1 or 1
   float views;
 
@@ -29,7 +29,7 @@ struct Side {
 };
 
 /// Whether the row's surface continues over the range in which outlines matter, as it does nearly everywhere.
-bool goes_on(const PaintInRow& paint, const Side& side, float own, float depth_threshold_px) {
+bool goes_on(const PaintInRow& paint, const OutlineSide& side, float own, float depth_threshold_px) {
   const int farthest = side.farthest(paint, depth_threshold_px);
   const auto is_own = [&](int away) { return std::abs(paint.at(side.step * away) - own) <= depth_threshold_px; };
   return side.views <= 0 || (is_own(farthest) && is_own((farthest + 1) / 2));
@@ -37,7 +37,7 @@ bool goes_on(const PaintInRow& paint, const Side& side, float own, float depth_t
 
 /// The largest disparity where the row's surface ends on one side. If the outline is s away, paint that reaches w may
 /// move no farther than the outline plus the distance that is left: v·d ≤ v·d_outline + s − w.
-float most_beside(const PaintInRow& paint, const Side& side, float own, float depth_threshold_px) {
+float most_beside(const PaintInRow& paint, const OutlineSide& side, float own, float depth_threshold_px) {
   if (side.views <= 0) return own;
   const int farthest = side.farthest(paint, depth_threshold_px);
   for (int away = 0; away < farthest; ++away) {
@@ -59,8 +59,8 @@ float most_beside(const PaintInRow& paint, const Side& side, float own, float de
 float disparity_within_outline(const StrokeGround& ground, const ControlPoint& point, float radius_px) {
   const int column = static_cast<int>(point.x), middle_row = static_cast<int>(point.y);
   if (!ground.disparity.contains(column, middle_row)) return point.disparity;
-  const std::array sides{Side{-1, ground.beside.right}, Side{1, ground.beside.left}};
-  const auto is_inside = [&](const Side& side) {
+  const std::array sides{OutlineSide{-1, ground.beside.right}, OutlineSide{1, ground.beside.left}};
+  const auto is_inside = [&](const OutlineSide& side) {
     return goes_on({ground.disparity.row(middle_row), column, radius_px}, side, point.disparity,
                    ground.depth_threshold_px);
   };
@@ -73,7 +73,7 @@ float disparity_within_outline(const StrokeGround& ground, const ControlPoint& p
     if (!ground.disparity.contains(column, row)) continue;
     if (std::abs(ground.disparity(column, row) - point.disparity) > ground.depth_threshold_px) continue;
     const PaintInRow paint{ground.disparity.row(row), column, row_px == 0 ? radius_px : aslant * radius_px};
-    for (const Side& side : sides)
+    for (const OutlineSide& side : sides)
       most = std::min(most, most_beside(paint, side, point.disparity, ground.depth_threshold_px));
   }
   return most;
