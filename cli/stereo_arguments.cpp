@@ -85,9 +85,8 @@ NamedPair read_two_files(const StereoArguments& arguments) {
   if (!arguments.layout.empty())
     throw Error(ErrorKind::wrong_usage, "--layout is for one file that holds both views, but two files are given");
   std::array<PictureInProfile, 2> files = read_two_in_profile(arguments.left, arguments.right);
-  const std::string profile = arguments.keep_profile ? bring_to_one_profile(files) : std::string();
-  StereoPair pair{profile.empty() ? in_srgb(std::move(files[0])) : std::move(files[0].picture),
-                  profile.empty() ? in_srgb(std::move(files[1])) : std::move(files[1].picture)};
+  const std::string profile = bring_to_one_profile(files, arguments.keep_profile);
+  StereoPair pair{std::move(files[0].picture), std::move(files[1].picture)};
   std::string framed;
   const PictureSize left{pair.left.width(), pair.left.height()}, right{pair.right.width(), pair.right.height()};
   if (differ_by_few(left, right)) {

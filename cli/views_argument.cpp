@@ -57,9 +57,8 @@ ReadViews read_pictures(const std::vector<std::string>& files, bool keep_profile
       throw Error(ErrorKind::bad_input, fmt::format("{}: is {}x{} pixels, expected {}x{} as {}", file, last.width(),
                                                     last.height(), first.width(), first.height(), files.front()));
   }
-  if (keep_profile) read.colour_profile = bring_to_one_profile(pictures);
-  for (PictureInProfile& picture : pictures)
-    read.views.push_back(read.colour_profile.empty() ? in_srgb(std::move(picture)) : std::move(picture.picture));
+  read.colour_profile = bring_to_one_profile(pictures, keep_profile);
+  for (PictureInProfile& picture : pictures) read.views.push_back(std::move(picture.picture));
   return read;
 }
 

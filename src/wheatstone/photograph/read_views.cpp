@@ -88,9 +88,8 @@ std::vector<MultiPictureEntry> views_among(std::vector<MultiPictureEntry> entrie
 
 /// Takes pictures as the views, in their profile where that is wanted.
 void take_views(std::vector<PictureInProfile> pictures, const ReadViewsOptions& options, ViewsFile& file) {
-  if (options.keep_profile) file.colour_profile = bring_to_one_profile(pictures);
-  for (PictureInProfile& picture : pictures)
-    file.views.push_back(file.colour_profile.empty() ? in_srgb(std::move(picture)) : std::move(picture.picture));
+  file.colour_profile = bring_to_one_profile(pictures, options.keep_profile);
+  for (PictureInProfile& picture : pictures) file.views.push_back(std::move(picture.picture));
 }
 
 /// The views of a JPEG with an index of them; none where it is an ordinary JPEG.
@@ -259,8 +258,8 @@ std::optional<ViewsFile> views_in_one_picture(std::string_view bytes, const fs::
   if (!options.scan && holds_one_view(bytes, path, options)) return {};
   PictureInProfile read = read_in_profile(path);
   // An anaglyph's colours tell its views apart.
-  const std::string profile = options.keep_profile && !options.scan ? bring_to_one_profile({&read, 1}) : std::string();
-  Image<Rgb8> picture = profile.empty() ? in_srgb(std::move(read)) : std::move(read.picture);
+  const std::string profile = bring_to_one_profile({&read, 1}, options.keep_profile && !options.scan);
+  Image<Rgb8> picture = std::move(read.picture);
   if (options.scan) return views_of_scan(picture, path, *options.scan);
   std::optional<KnownLayout> known = told_layout(bytes, path, picture.width(), picture.height(), options);
   if (!known)

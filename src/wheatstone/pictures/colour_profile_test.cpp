@@ -124,10 +124,10 @@ TEST(ColourProfile, IsWrittenIntoEveryFormatThatTakesIt) {
 TEST(ColourProfile, StaysWhereAllPicturesShareIt) {
   const Image<Rgb8> picture(2, 2, {200, 120, 90});
   const std::string wide = display_p3(), srgb = saved(cmsCreate_sRGBProfile());
-  const auto brought = [&](std::vector<std::string> profiles) {
+  const auto brought = [&](std::vector<std::string> profiles, bool keep_shared = true) {
     std::vector<PictureInProfile> pictures;
     for (std::string& profile : profiles) pictures.push_back({picture, std::move(profile)});
-    const std::string kept = bring_to_one_profile(pictures);
+    const std::string kept = bring_to_one_profile(pictures, keep_shared);
     for (const PictureInProfile& one : pictures) EXPECT_EQ(one.colour_profile, kept);
     return std::pair(kept, std::move(pictures));
   };
@@ -141,6 +141,9 @@ TEST(ColourProfile, StaysWhereAllPicturesShareIt) {
   EXPECT_EQ(brought({srgb, srgb}).first, "");
   EXPECT_EQ(brought({wide.substr(0, 90)}).first, "");
   EXPECT_EQ(brought({}).first, "");
+  const auto [unwanted, in_srgb] = brought({wide}, false);
+  EXPECT_EQ(unwanted, "");
+  EXPECT_EQ(in_srgb[0].picture, different[0].picture);
 }
 
 }  // namespace wheatstone::colour_profile_test

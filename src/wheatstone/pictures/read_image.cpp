@@ -189,13 +189,15 @@ Image<Rgb8> in_srgb(PictureInProfile picture) {
   return std::move(picture.picture);
 }
 
-std::string bring_to_one_profile(std::span<PictureInProfile> pictures) {
-  const auto profile_of = [](const PictureInProfile& picture) -> const std::string& { return picture.colour_profile; };
-  const std::string shared = pictures.empty() ? std::string() : pictures.front().colour_profile;
-  const bool is_shared = std::ranges::all_of(
-      pictures, [&](const std::string& own) { return own == shared; }, profile_of);
-  if (is_shared && describes_other_colours(shared)) return shared;
-  for (PictureInProfile& picture : pictures) picture = {in_srgb(std::move(picture)), {}};
+std::string bring_to_one_profile(std::span<PictureInProfile> pictures, bool keep_shared) {
+  constexpr std::size_t most_bytes = 8 << 20;  // JPEG takes twice as many
+  const std::string shared = keep_shared && !pictures.empty() ? pictures.front().colour_profile : std::string();
+  const bool is_shared =
+      std::ranges::all_of(pictures, [&](const PictureInProfile& picture) { return picture.colour_profile == shared; });
+  if (is_shared && shared.size() <= most_bytes && describes_other_colours(shared)) return shared;
+  tbb::parallel_for(std::size_t{0}, pictures.size(), [&](std::size_t i) {
+    pictures[i] = {in_srgb(std::move(pictures[i])), {}};
+  });
   return {};
 }
 

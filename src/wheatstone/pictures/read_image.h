@@ -37,9 +37,9 @@ PictureInProfile decode_jpeg_in_profile(std::string_view bytes, const std::files
 /// Brings the picture to sRGB.
 Image<Rgb8> in_srgb(PictureInProfile picture);
 
-/// Brings pictures to sRGB, except where all have the same profile, of other colours than sRGB's: then they stay as
-/// they are, and it is returned; else nothing is.
-std::string bring_to_one_profile(std::span<PictureInProfile> pictures);
+/// Brings pictures to sRGB, except with `keep_shared` where all have the same profile, of other colours than sRGB's,
+/// and of a size that every format takes: then they stay as they are, and it is returned; else nothing is.
+std::string bring_to_one_profile(std::span<PictureInProfile> pictures, bool keep_shared);
 
 /// The same of a JPEG in memory; `path` stands for it in messages.
 Image<Rgb8> decode_jpeg(std::string_view bytes, const std::filesystem::path& path);
