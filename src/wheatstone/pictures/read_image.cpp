@@ -134,24 +134,6 @@ PictureInProfile in_profile(const fs::path& path, const OpenPicture& open) {
   return read;
 }
 
-/// Both at once.
-template <class Read>
-auto read_two(const fs::path& first, const fs::path& second, Read read) {
-  const std::array paths{&first, &second};
-  std::array<decltype(read(first)), 2> pictures;
-  std::array<std::exception_ptr, 2> thrown;
-  tbb::parallel_for(std::size_t{0}, paths.size(), [&](std::size_t i) {
-    try {
-      pictures[i] = read(*paths[i]);
-    } catch (...) {
-      thrown[i] = std::current_exception();
-    }
-  });
-  for (const std::exception_ptr& error : thrown)
-    if (error) std::rethrow_exception(error);
-  return pictures;
-}
-
 std::vector<Image<Rgb8>> read_png_frames(std::string_view bytes, const fs::path& path, int most_frames) {
   const auto pngs = frames_of_png(bytes, most_frames);
   if (!pngs) refuse_damaged(path, "its frames do not each replace the whole picture, or it ends too early");
@@ -171,22 +153,31 @@ Image<Rgb16> read_deep_image(const fs::path& path) {
 }
 
 std::array<Image<Rgb8>, 2> read_two_images(const fs::path& first, const fs::path& second) {
-  return read_two(first, second, read_image);
+  std::array<PictureInProfile, 2> pictures = read_two_in_profile(first, second);
+  bring_to_one_profile(pictures, false);
+  return {std::move(pictures[0].picture), std::move(pictures[1].picture)};
 }
 
 PictureInProfile read_in_profile(const fs::path& path) { return in_profile(path, open_picture(path)); }
 
 std::array<PictureInProfile, 2> read_two_in_profile(const fs::path& first, const fs::path& second) {
-  return read_two(first, second, read_in_profile);
+  const std::array paths{&first, &second};
+  std::array<PictureInProfile, 2> pictures;
+  std::array<std::exception_ptr, 2> thrown;
+  tbb::parallel_for(std::size_t{0}, paths.size(), [&](std::size_t i) {
+    try {
+      pictures[i] = read_in_profile(*paths[i]);
+    } catch (...) {
+      thrown[i] = std::current_exception();
+    }
+  });
+  for (const std::exception_ptr& error : thrown)
+    if (error) std::rethrow_exception(error);
+  return pictures;
 }
 
 PictureInProfile decode_jpeg_in_profile(std::string_view bytes, const fs::path& path) {
   return in_profile(path, open_jpeg(bytes, path));
-}
-
-Image<Rgb8> in_srgb(PictureInProfile picture) {
-  bring_to_srgb(picture.picture, picture.colour_profile, false);
-  return std::move(picture.picture);
 }
 
 std::string bring_to_one_profile(std::span<PictureInProfile> pictures, bool keep_shared) {
@@ -196,7 +187,8 @@ std::string bring_to_one_profile(std::span<PictureInProfile> pictures, bool keep
       std::ranges::all_of(pictures, [&](const PictureInProfile& picture) { return picture.colour_profile == shared; });
   if (is_shared && shared.size() <= most_bytes && describes_other_colours(shared)) return shared;
   tbb::parallel_for(std::size_t{0}, pictures.size(), [&](std::size_t i) {
-    pictures[i] = {in_srgb(std::move(pictures[i])), {}};
+    bring_to_srgb(pictures[i].picture, pictures[i].colour_profile, false);
+    pictures[i].colour_profile.clear();
   });
   return {};
 }

@@ -22,30 +22,27 @@ Image<Rgb16> read_deep_image(const std::filesystem::path& path);
 /// Two pictures, which are read at once. Throws as read_image, for the first of them where both cannot be read.
 std::array<Image<Rgb8>, 2> read_two_images(const std::filesystem::path& first, const std::filesystem::path& second);
 
+/// The same of a JPEG in memory; `path` stands for it in messages.
+Image<Rgb8> decode_jpeg(std::string_view bytes, const std::filesystem::path& path);
+/// The same of a file's only JPEG, decoded fast for a first look: the smallest of an eighth, a quarter and a half of
+/// its size that is at least 300 pixels wide and high; where none is, the whole picture.
+Image<Rgb8> decode_small_jpeg(std::string_view bytes, const std::filesystem::path& path);
+
 /// A picture in the colours of its file.
 struct PictureInProfile {
   Image<Rgb8> picture;
   std::string colour_profile;  ///< ICC, of three channels, as the file has it; empty: sRGB
 };
 
-/// The same, but for its colours.
+/// As read_image, read_two_images and decode_jpeg, but for the colours.
 PictureInProfile read_in_profile(const std::filesystem::path& path);
 std::array<PictureInProfile, 2> read_two_in_profile(const std::filesystem::path& first,
                                                     const std::filesystem::path& second);
 PictureInProfile decode_jpeg_in_profile(std::string_view bytes, const std::filesystem::path& path);
 
-/// Brings the picture to sRGB.
-Image<Rgb8> in_srgb(PictureInProfile picture);
-
 /// Brings pictures to sRGB, except with `keep_shared` where all have the same profile, of other colours than sRGB's,
 /// and of a size that every format takes: then they stay as they are, and it is returned; else nothing is.
 std::string bring_to_one_profile(std::span<PictureInProfile> pictures, bool keep_shared);
-
-/// The same of a JPEG in memory; `path` stands for it in messages.
-Image<Rgb8> decode_jpeg(std::string_view bytes, const std::filesystem::path& path);
-/// The same of a file's only JPEG, decoded fast for a first look: the smallest of an eighth, a quarter and a half of
-/// its size that is at least 300 pixels wide and high; where none is, the whole picture.
-Image<Rgb8> decode_small_jpeg(std::string_view bytes, const std::filesystem::path& path);
 
 /// Whether these are the bytes of a GIF, an animated WebP or an animated PNG, which hold one frame or more.
 bool may_be_animated(std::string_view bytes);
