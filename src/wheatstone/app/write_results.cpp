@@ -224,7 +224,7 @@ void draw_again(const Painting& painting, OutputFolder& folder, const RedrawOpti
   presentation.device = options.device;
   const std::vector<Image<Rgb8>> views = present(sized, presentation).views;
   const float zero_parallax_px = is_placed ? 0 : options.zero_parallax_px.value_or(nearest_disparity(sized));
-  const StereoPair presented =
+  const StereoPairView presented =
       set_convergence({views[views.size() - 2], views[views.size() - 1]}, separation * zero_parallax_px);
   report(progress, "writing", 0);
   const auto picture = [&](const char* name) { return folder.file(fmt::format("{}.{}", name, options.format)); };

@@ -4,15 +4,13 @@
 #include <cmath>
 
 #include "wheatstone/depth/convergence.h"
+#include "wheatstone/image/shared_image.h"
 
 namespace wheatstone {
 namespace {
 
-Image<Rgb8> columns_of(ImageView<const Rgb8> picture, int first, int count) {
-  Image<Rgb8> part(count, picture.height());
-  for (int y = 0; y < picture.height(); ++y)
-    std::ranges::copy(picture.row(y).subspan(first, count), part.row(y).begin());
-  return part;
+ImageView<const Rgb8> columns_of(ImageView<const Rgb8> picture, int first, int count) {
+  return {picture.data() + first, count, picture.height(), picture.stride()};
 }
 
 }  // namespace
@@ -27,7 +25,7 @@ Image<Rgb8> side_by_side(const StereoPairView& pair) {
   return both;
 }
 
-StereoPair set_convergence(const StereoPairView& pair, float zero_parallax_px) {
+StereoPairView set_convergence(const StereoPairView& pair, float zero_parallax_px) {
   const int width = pair.left.width();
   shared_width(width, zero_parallax_px);
   const auto shift = static_cast<int>(std::lround(zero_parallax_px));
@@ -45,7 +43,7 @@ std::vector<Image<Rgb8>> shifted_views(std::vector<Image<Rgb8>> views, float dis
     first[i] = -static_cast<int>(std::lround(static_cast<double>(disparity_px) * static_cast<double>(i)));
   const auto [least, most] = std::ranges::minmax(first);
   const int common = width - (most - least);
-  for (std::size_t i = 0; i < views.size(); ++i) views[i] = columns_of(views[i], first[i] - least, common);
+  for (std::size_t i = 0; i < views.size(); ++i) views[i] = copy_of(columns_of(views[i], first[i] - least, common));
   return views;
 }
 

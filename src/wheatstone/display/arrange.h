@@ -11,9 +11,9 @@ Image<Rgb8> side_by_side(const StereoPairView& pair);
 
 /// Moves the zero-parallax plane to where the disparity is `zero_parallax_px` (Stavrakis & Gelautz 2004, sec. 3.4): the
 /// pictures are shifted against each other by that many whole pixels and cropped to what both show, the same height.
-/// Points nearer than the plane then stand in front of the screen. Throws Error{wrong_usage} where they show less than
-/// a quarter of the width both.
-StereoPair set_convergence(const StereoPairView& pair, float zero_parallax_px);
+/// Points nearer than the plane then stand in front of the screen. Borrows the pictures. Throws Error{wrong_usage}
+/// where they show less than a quarter of the width both.
+StereoPairView set_convergence(const StereoPairView& pair, float zero_parallax_px);
 
 /// The same for any number of views: each is moved by `disparity_px` to the left against the one on its left, in whole
 /// pixels from the middle view, and all are cropped to what all show. Throws Error{wrong_usage} as it does.

@@ -39,7 +39,7 @@ TEST(Translation, BringsTheChosenDisparityToTheSameColumn) {
     pair = {Image<Rgb8>(20, 1), Image<Rgb8>(20, 1)};
     pair.left(10, 0) = {255, 0, 0};
     pair.right(10 - disparity, 0) = {255, 0, 0};
-    const StereoPair moved = set_convergence(pair, static_cast<float>(disparity));
+    const StereoPairView moved = set_convergence(pair, static_cast<float>(disparity));
     ASSERT_EQ(moved.left.width(), 20 - std::abs(disparity));
     for (int x = 0; x < moved.left.width(); ++x) EXPECT_EQ(moved.left(x, 0), moved.right(x, 0));
   }

@@ -31,15 +31,4 @@ Canvas make_canvas(ImageView<const Rgb8> background) {
   return canvas;
 }
 
-Image<Rgb8> picture_of(const Canvas& canvas) {
-  Image<Rgb8> picture(canvas.width, canvas.height);
-  const auto level = [](float value) { return static_cast<std::uint8_t>(value + 0.5f); };
-  tbb::parallel_for(0, canvas.height, [&](int y) {
-    const auto red = canvas.red.row(y), green = canvas.green.row(y), blue = canvas.blue.row(y);
-    const auto to = picture.row(y);
-    for (std::size_t x = 0; x < to.size(); ++x) to[x] = {level(red[x]), level(green[x]), level(blue[x])};
-  });
-  return picture;
-}
-
 }  // namespace wheatstone

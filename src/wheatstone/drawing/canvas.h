@@ -20,7 +20,4 @@ struct Canvas {
 /// A bare canvas that shows a picture through what is not painted.
 Canvas make_canvas(ImageView<const Rgb8> background);
 
-/// The canvas's colours, bare or painted, each rounded to the nearest level.
-Image<Rgb8> picture_of(const Canvas& canvas);
-
 }  // namespace wheatstone

@@ -138,8 +138,8 @@ bool may_be_seen(const SeenLayer& seen, const FlatStroke& stroke, const Distance
   return (drawn.open_rows(begin, end) & rows) != 0;
 }
 
-/// Draws a layer band by band, on a canvas of some size. Bands for which `is_wanted(band)` or `begin(top, drawn)` is
-/// false are left out; `finish(top, drawn)` takes what was drawn.
+/// Draws a layer band by band, on a canvas of some size. Bands for which `is_wanted(band, has_strokes)` or
+/// `begin(top, drawn)` is false are left out; `finish(top, drawn)` takes what was drawn.
 template <class IsWanted, class Begin, class Finish>
 void draw_bands(const Layer& layer, const Brush& brush, ViewPosition view, const Hiding& hiding, int width, int height,
                 IsWanted is_wanted, Begin begin, Finish finish) {
@@ -148,7 +148,7 @@ void draw_bands(const Layer& layer, const Brush& brush, ViewPosition view, const
   const auto bands = strokes_by_band(flat, height);
   tbb::concurrent_queue<FrontToBackAccumulator> kept;  // reused, because fresh memory is slow
   tbb::parallel_for(0, static_cast<int>(bands.size()), [&](int i) {
-    if (bands[i].empty() || !is_wanted(i)) return;
+    if (!is_wanted(i, !bands[i].empty())) return;
     const int top = i * band_rows, row_count = std::min(band_rows, height - top);
     FrontToBackAccumulator drawn;
     if (kept.try_pop(drawn) && drawn.rows() == row_count) {
@@ -180,9 +180,24 @@ void rasterise(const Layer& layer, ViewPosition view, const Hiding& hiding, Canv
                std::span<const std::uint8_t> wanted) {
   draw_bands(
       layer, brush, view, hiding, canvas.width, canvas.height,
-      [&](int band) { return wanted.empty() || wanted[static_cast<std::size_t>(band)] != 0; },
+      [&](int band, bool has_strokes) {
+        return has_strokes && (wanted.empty() || wanted[static_cast<std::size_t>(band)] != 0);
+      },
       [](int, const FrontToBackAccumulator&) { return true; },
       [&](int top, FrontToBackAccumulator& drawn) { lay_over(drawn, top, canvas); });
+}
+
+void rasterise_bands(const Layer& layer, ViewPosition view, const Hiding& hiding, int width, int height,
+                     const Brush& brush, const CanvasBandWork& begin, const CanvasBandWork& finish) {
+  draw_bands(
+      layer, brush, view, hiding, width, height, [](int, bool) { return true; },
+      [](int, const FrontToBackAccumulator&) { return true; },
+      [&](int top, FrontToBackAccumulator& drawn) {
+        Canvas canvas(width, drawn.rows(), {});
+        begin(top, canvas);
+        lay_over(drawn, 0, canvas);
+        finish(top, canvas);
+      });
 }
 
 Image<std::uint8_t> left_bare(const Layer& layer, ViewPosition view, const Hiding& hiding, Image<std::uint8_t> bare,
@@ -205,7 +220,8 @@ Image<std::uint8_t> left_bare(const Layer& layer, ViewPosition view, const Hidin
     }
   };
   draw_bands(
-      layer, brush, view, hiding, bare.width(), bare.height(), [](int) { return true; }, begin, finish);
+      layer, brush, view, hiding, bare.width(), bare.height(), [](int, bool has_strokes) { return has_strokes; }, begin,
+      finish);
   return bare;
 }
 

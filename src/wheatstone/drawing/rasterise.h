@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 
 #include "wheatstone/drawing/canvas.h"
@@ -20,6 +21,12 @@ constexpr int band_count(int height) { return (height + band_rows - 1) / band_ro
 /// `wanted`: 0 for bands that are left as they are; empty: all are drawn.
 void rasterise(const Layer& layer, ViewPosition view, const Hiding& hiding, Canvas& canvas, const Brush& brush = {},
                std::span<const std::uint8_t> wanted = {});
+
+/// The same on a canvas of which only a band at a time exists: `begin(top, canvas)` fills the rows from `top` on, and
+/// `finish(top, canvas)` takes them with the strokes. Both may be called for several bands at once.
+using CanvasBandWork = std::function<void(int top, Canvas& canvas)>;
+void rasterise_bands(const Layer& layer, ViewPosition view, const Hiding& hiding, int width, int height,
+                     const Brush& brush, const CanvasBandWork& begin, const CanvasBandWork& finish);
 
 /// The pixels that strokes would leave bare if they were drawn in this way over a canvas whose bare pixels are not 0 in
 /// `bare`. Costs little if few pixels are bare.

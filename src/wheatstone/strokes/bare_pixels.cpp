@@ -9,19 +9,6 @@
 
 namespace wheatstone {
 
-Image<std::uint8_t> bare_pixels(const Canvas& canvas, ImageView<const std::uint8_t> wanted) {
-  Image<std::uint8_t> bare(canvas.width, canvas.height);
-  tbb::parallel_for(0, canvas.height, [&](int y) {
-    const auto coverage = canvas.coverage.row(y);
-    const auto marks = bare.row(y);
-    for (std::size_t x = 0; x < marks.size(); ++x) marks[x] = coverage[x] < 0.5f ? 255 : 0;
-    if (wanted.empty()) return;
-    const auto wanted_here = wanted.row(y);
-    for (std::size_t x = 0; x < marks.size(); ++x) marks[x] = wanted_here[x] != 0 ? marks[x] : std::uint8_t{0};
-  });
-  return bare;
-}
-
 Layer strokes_near_bare(const Layer& layer, ImageView<const std::uint8_t> bare) {
   constexpr int block_px = 16;
   const int columns = bare.width() / block_px + 1, rows = bare.height() / block_px + 1;

@@ -1,6 +1,3 @@
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -13,7 +10,6 @@
 namespace wheatstone {
 namespace {
 
-constexpr int window_reach_px = 3;  ///< of the window whose contrast counts
 constexpr int steps_of_level = 10;  ///< luminance is summed in whole steps, so that no order matters
 
 /// Rec. 601.
@@ -21,33 +17,40 @@ std::int32_t luminance_in_steps(int red, int green, int blue) {
   return (299 * red + 587 * green + 114 * blue + 50) / (1000 / steps_of_level);
 }
 
-/// Sums of luminances, and of their squares, over the rows of a window, by column, with a window's reach of empty
-/// columns on both sides.
+/// Sums of luminances, and of their squares, over the rows of a window, for columns from `left` on: those of an area
+/// and a window's reach on both sides, of which some may lie outside the picture.
 struct ColumnSums {
-  explicit ColumnSums(int width) : values(static_cast<std::size_t>(width + 2 * window_reach_px)), squares(values) {}
+  ColumnSums(const PixelArea& area, int picture_width)
+      : left(area.left - weight_reach_px),
+        first(std::max(left, 0)),
+        end(std::min(area.right + weight_reach_px, picture_width)),
+        values(static_cast<std::size_t>(area.right + weight_reach_px - left)),
+        squares(values) {}
 
   void change(const ReferencePicture& picture, int y, int sign) {
     if (y < 0 || y >= picture.red.height()) return;
-    const auto red = picture.red.row(y), green = picture.green.row(y), blue = picture.blue.row(y);
-    std::int32_t* const value = values.data() + window_reach_px;
-    std::int32_t* const square = squares.data() + window_reach_px;
-    for (std::size_t x = 0; x < red.size(); ++x) {
+    const auto part = [&](const Image<std::uint8_t>& plane) { return &plane(first, y); };
+    const std::uint8_t *red = part(picture.red), *green = part(picture.green), *blue = part(picture.blue);
+    std::int32_t* const value = values.data() + (first - left);
+    std::int32_t* const square = squares.data() + (first - left);
+    for (int x = 0; x < end - first; ++x) {
       const std::int32_t luminance = luminance_in_steps(red[x], green[x], blue[x]);
       value[x] += sign * luminance;
       square[x] += sign * luminance * luminance;
     }
   }
 
+  int left, first, end;
   std::vector<std::int32_t> values, squares;
 };
 
 int in_window(int i, int count) {
-  return std::min(i + window_reach_px, count - 1) - std::max(i - window_reach_px, 0) + 1;
+  return std::min(i + weight_reach_px, count - 1) - std::max(i - weight_reach_px, 0) + 1;
 }
 
 void weigh_row(const ColumnSums& sums, std::span<const float> columns_in_window, int rows_in_window,
                std::span<float> weights) {
-  constexpr int last = 2 * window_reach_px;  // column of a window
+  constexpr int last = 2 * weight_reach_px;  // column of a window
   thread_local std::vector<std::int32_t> values, squares;
   values.resize(weights.size());
   squares.resize(weights.size());
@@ -99,30 +102,29 @@ void multiply(std::span<float> weights, std::span<const std::uint8_t> values, co
 
 bool weighs_outlines(const LayerPlan& plan) { return !plan.depth_edges.empty() && plan.radius_px <= fine_radius_px; }
 
-void weigh_rows(const LayerPlan& plan, int first, int end, Image<float>& weights) {
+std::vector<float> difference_weights(const LayerPlan& plan, const PixelArea& area) {
   const ImageView<const std::uint8_t> detail = plan.view.detail;
   static const std::array<float, 256> of_detail = factors_of_detail();
   std::array<float, 256> of_outline{1};
   std::fill(of_outline.begin() + 1, of_outline.end(), factor_of_outline);
-  const int width = weights.width(), height = weights.height();
-  std::vector<float> columns_in_window(static_cast<std::size_t>(width));
-  for (int x = 0; x < width; ++x) columns_in_window[x] = static_cast<float>(in_window(x, width));
-  ColumnSums sums(width);
-  for (int y = first - window_reach_px; y < first + window_reach_px; ++y) sums.change(*plan.reference, y, 1);
-  for (int y = first; y < end; ++y) {
-    sums.change(*plan.reference, y + window_reach_px, 1);
-    weigh_row(sums, columns_in_window, in_window(y, height), weights.row(y));
-    sums.change(*plan.reference, y - window_reach_px, -1);
-    if (!detail.empty()) multiply(weights.row(y), detail.row(y), of_detail);
-    if (weighs_outlines(plan)) multiply(weights.row(y), plan.depth_edges.row(y), of_outline);
+  const int width = plan.reference->red.width(), height = plan.reference->red.height();
+  const auto columns = static_cast<std::size_t>(area.right - area.left);
+  std::vector<float> columns_in_window(columns), weights(columns * static_cast<std::size_t>(area.bottom - area.top));
+  for (std::size_t i = 0; i < columns; ++i)
+    columns_in_window[i] = static_cast<float>(in_window(area.left + static_cast<int>(i), width));
+  ColumnSums sums(area, width);
+  for (int y = area.top - weight_reach_px; y < area.top + weight_reach_px; ++y) sums.change(*plan.reference, y, 1);
+  const auto of_area = [&](std::span<const std::uint8_t> row) {
+    return row.subspan(static_cast<std::size_t>(area.left), columns);
+  };
+  for (int y = area.top; y < area.bottom; ++y) {
+    const auto row = std::span(weights).subspan(static_cast<std::size_t>(y - area.top) * columns, columns);
+    sums.change(*plan.reference, y + weight_reach_px, 1);
+    weigh_row(sums, columns_in_window, in_window(y, height), row);
+    sums.change(*plan.reference, y - weight_reach_px, -1);
+    if (!detail.empty()) multiply(row, of_area(detail.row(y)), of_detail);
+    if (weighs_outlines(plan)) multiply(row, of_area(plan.depth_edges.row(y)), of_outline);
   }
-}
-
-Image<float> difference_weights(const LayerPlan& plan) {
-  Image<float> weights(plan.reference->red.width(), plan.reference->red.height());
-  constexpr int least_rows = 64;  // a part's first window is summed anew
-  tbb::parallel_for(tbb::blocked_range<int>(0, weights.height(), least_rows),
-                    [&](const tbb::blocked_range<int>& rows) { weigh_rows(plan, rows.begin(), rows.end(), weights); });
   return weights;
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "wheatstone/random.h"
+#include "wheatstone/strokes/begun_canvas_internal.h"
 #include "wheatstone/strokes/jitter_internal.h"
 #include "wheatstone/strokes/layer_order.h"
 #include "wheatstone/strokes/refit_internal.h"
@@ -84,11 +85,15 @@ bool may_gain_in_block(const LayerPlan& plan, const PaintedPicture& canvas, int 
   for (int half = first_column; place_of_half(plan, half) < right; ++half)
     columns.push_back(static_cast<std::size_t>(place_of_half(plan, half) - x0));
   columns.push_back(static_cast<std::size_t>(right - x0));
+  const int y0 = place_of_half(plan, first_row);
+  const std::vector<float> weights = difference_weights(plan, {x0, y0, right, bottom});
   std::vector<float> errors(columns.back()), above(columns.size()), sums(columns.size());
   for (int row = first_row; place_of_half(plan, row) < bottom; ++row) {
     std::ranges::fill(sums, 0.f);
     for (int y = place_of_half(plan, row); y < std::min(place_of_half(plan, row + 1), bottom); ++y) {
-      errors_of_row(plan, canvas, x0, y, errors);
+      errors_of_row(plan, canvas, x0, y,
+                    std::span(weights).subspan(static_cast<std::size_t>(y - y0) * errors.size(), errors.size()),
+                    errors);
       for (std::size_t c = 0; c + 1 < columns.size(); ++c)
         for (std::size_t x = columns[c]; x < columns[c + 1]; ++x) sums[c] += errors[x];
     }
@@ -373,9 +378,9 @@ void take_painted_row(const Canvas& canvas, int y, std::span<PaintedPixel> to) {
   for (std::size_t x = 0; x < to.size(); ++x) to[x] = PaintedPixel::of(red[x], green[x], blue[x], covered[x]);
 }
 
-PaintedPicture painted_picture(const Canvas& canvas) {
-  PaintedPicture picture(canvas.width, canvas.height);
-  tbb::parallel_for(0, canvas.height, [&](int y) { take_painted_row(canvas, y, picture.row(y)); });
+PaintedPicture painted_picture(const BegunCanvas& begun) {
+  PaintedPicture picture(begun.width, begun.height);
+  for_each_row(begun, [&](const Canvas& canvas, int row, int y) { take_painted_row(canvas, row, picture.row(y)); });
   return picture;
 }
 

@@ -8,6 +8,7 @@
 #include "wheatstone/drawing/rasterise.h"
 #include "wheatstone/marks/painting.h"
 #include "wheatstone/painting/paint.h"
+#include "wheatstone/strokes/begun_canvas_internal.h"
 #include "wheatstone/strokes/layer_plan.h"
 
 namespace wheatstone::fit_layer_test {

@@ -194,16 +194,19 @@ FitTile::FitTile(const LayerPlan& plan, PaintedPicture& canvas, int left_, int t
       height(std::min(bottom, canvas.height()) - top),
       plan_(plan),
       canvas_(canvas),
+      weights_(difference_weights(plan, {left, top, left + width, top + height})),
       error_(at(0, height)) {
-  for (int y = 0; y < height; ++y)
-    errors_of_row(plan, canvas, left, top + y, std::span(error_).subspan(at(0, y), static_cast<std::size_t>(width)));
+  const auto row_of = [&](auto& values, int y) {
+    return std::span(values).subspan(at(0, y), static_cast<std::size_t>(width));
+  };
+  for (int y = 0; y < height; ++y) errors_of_row(plan, canvas, left, top + y, row_of(weights_, y), row_of(error_, y));
 }
 
-void errors_of_row(const LayerPlan& plan, const PaintedPicture& canvas, int left, int y, std::span<float> errors) {
+void errors_of_row(const LayerPlan& plan, const PaintedPicture& canvas, int left, int y, std::span<const float> weights,
+                   std::span<float> errors) {
   const auto row = [&](const auto& plane) { return &plane(left, y); };
   const auto *red = row(plan.reference->red), *green = row(plan.reference->green), *blue = row(plan.reference->blue);
   const PaintedPixel* const paint = row(canvas);
-  const float* const weights = row(plan.weights);
   // A loop that compilers turn into vectors.
   for (std::size_t x = 0; x < errors.size(); ++x) {
     const auto left_of = [](int level, std::uint16_t painted) {

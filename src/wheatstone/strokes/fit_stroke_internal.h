@@ -39,12 +39,16 @@ inline FitColour operator-(const FitColour& a, const FitColour& b) {
   return {a.luminance - b.luminance, a.red - b.red, a.blue - b.blue};
 }
 
-/// How much a difference counts at each pixel of a layer: by the local contrast of the wanted luminance relative to its
-/// brightness, so that dark detail counts as well, by View::detail, and beside depth edges. A weight depends on the
-/// picture within 3 pixels.
-Image<float> difference_weights(const LayerPlan& plan);
-/// Weighs some rows anew.
-void weigh_rows(const LayerPlan& plan, int first, int end, Image<float>& weights);
+/// Columns [left, right) and rows [top, bottom) of a picture.
+struct PixelArea {
+  int left, top, right, bottom;
+};
+
+/// How much a difference counts at each pixel of an area, row by row: by the local contrast of the wanted luminance
+/// relative to its brightness, so that dark detail counts as well, by View::detail, and beside depth edges. A weight
+/// depends on the reference within `weight_reach_px`.
+std::vector<float> difference_weights(const LayerPlan& plan, const PixelArea& area);
+inline constexpr int weight_reach_px = 3;
 /// Whether the weights depend on the depth edges.
 bool weighs_outlines(const LayerPlan& plan);
 
@@ -77,10 +81,11 @@ struct PaintedPixel {
 };
 using PaintedPicture = Image<PaintedPixel>;
 void take_painted_row(const Canvas& canvas, int y, std::span<PaintedPixel> to);
-PaintedPicture painted_picture(const Canvas& canvas);
+PaintedPicture painted_picture(const BegunCanvas& begun);
 
 /// The weighted errors of a row's pixels from `left` on, in squared steps; larger where nothing is painted.
-void errors_of_row(const LayerPlan& plan, const PaintedPicture& canvas, int left, int y, std::span<float> errors);
+void errors_of_row(const LayerPlan& plan, const PaintedPicture& canvas, int left, int y, std::span<const float> weights,
+                   std::span<float> errors);
 
 /// A part of a layer's pictures, around a block of cells whose strokes are planned one after the other. `left` and
 /// `top` are counted from the picture's first pixel, everything else from the tile's. Borrows what it is made from.
@@ -105,7 +110,7 @@ class FitTile {
   bool is_bare(int x, int y) const { return canvas_(left + x, top + y).is_bare(); }
   float disparity(int x, int y) const { return plan_.view.disparity(left + x, top + y); }
   /// How much a difference counts.
-  float weight(int x, int y) const { return plan_.weights(left + x, top + y); }
+  float weight(int x, int y) const { return weights_[at(x, y)]; }
   /// The weighted error of a pixel, in squared steps; larger where nothing is painted.
   float error(int x, int y) const { return error_[at(x, y)]; }
   /// Paints a pixel of the canvas; `cover`: 0..1.
@@ -114,7 +119,7 @@ class FitTile {
  private:
   const LayerPlan& plan_;
   PaintedPicture& canvas_;
-  std::vector<float> error_;
+  std::vector<float> weights_, error_;
 };
 
 /// A stroke that is fitted to a tile, in the tile's pixels.

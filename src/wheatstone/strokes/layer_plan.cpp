@@ -9,6 +9,7 @@
 #include "wheatstone/drawing/rasterise.h"
 #include "wheatstone/marks/residual.h"
 #include "wheatstone/random.h"
+#include "wheatstone/strokes/begun_canvas_internal.h"
 #include "wheatstone/strokes/depth_edges_internal.h"
 #include "wheatstone/strokes/fit_stroke_internal.h"
 #include "wheatstone/strokes/handed_back_internal.h"
@@ -82,7 +83,7 @@ LayerPlan make_layer_plan(const ViewOnCanvas& at, const Style& style, int layer,
   const bool finest = layer + 1 == static_cast<int>(at.scaled.radii_px.size());
   LayerPlan plan{.style = style,
                  .view = at.view,
-                 .canvas = at.canvas,
+                 .canvas = at.begun(),
                  .radius_px = radius,
                  .layer = layer,
                  .seeds = at.view.wanted,
@@ -105,14 +106,12 @@ LayerPlan make_layer_plan(const ViewOnCanvas& at, const Style& style, int layer,
                          if (at.view.wanted.empty())
                            plan.mixed_colours = behind_depth_edge(steps, radius / 2, threshold);
                        });
-  if (style.marks == Marks::fitted_strokes)
-    plan.weights = fit == nullptr ? difference_weights(plan) : weights_again(plan, *fit);
   return plan;
 }
 
 Image<std::uint8_t> misplaced_paint(const ViewOnCanvas& at, const Style& style) {
   if (style.jitter != ColourJitter{}) return {};
-  return residual(picture_of(at.canvas), at.view.colour);
+  return residual(picture_of(at.begun()), at.view.colour);
 }
 
 std::vector<Layer> plan_alone(ViewOnCanvas& at, const Style& style, const Progress& progress) {

@@ -1,13 +1,14 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
-#include "wheatstone/drawing/canvas.h"
 #include "wheatstone/marks/stroke_painting.h"
 #include "wheatstone/marks/style.h"
 #include "wheatstone/progress.h"
 #include "wheatstone/stereo/view.h"
+#include "wheatstone/strokes/begun_canvas.h"
 #include "wheatstone/strokes/outline_disparity.h"
 #include "wheatstone/strokes/reference_picture.h"
 
@@ -35,10 +36,16 @@ struct ViewOnCanvas {
   /// On a canvas that is begun.
   ViewOnCanvas(View view, const Style& style, int reference_width, Canvas begun);
 
+  BegunCanvas begun() const {
+    return {canvas, canvas_factor, view.colour.width(), view.colour.height(), to_draw ? &*to_draw : nullptr};
+  }
+
   View view;
   ScaledStyle scaled;
   Canvas canvas;
-  ViewsBeside beside;  ///< from which the strokes will be seen
+  int canvas_factor = 1;                 ///< how many times smaller than the view the canvas is
+  std::optional<StrokesToDraw> to_draw;  ///< on the canvas as large as the view
+  ViewsBeside beside;                    ///< from which the strokes will be seen
 };
 
 /// Distances to depth edges are known up to this much more than the brush's radius.
@@ -51,7 +58,7 @@ struct LayerFit;
 struct LayerPlan {
   const Style& style;
   const View& view;
-  const Canvas& canvas;  ///< as the coarser layers left it
+  BegunCanvas canvas;
   std::shared_ptr<const ReferencePicture> reference;
   float radius_px = 4;
   int layer = 0;                            ///< from the coarsest, 0; numbers the layer's random choices
@@ -59,7 +66,6 @@ struct LayerPlan {
   ImageView<const std::uint8_t> misplaced;  ///< as misplaced_paint: strokes are wanted first there; empty: nowhere
   ViewsBeside beside = {};                  ///< from which its strokes will be seen
   float least_gain = 0;                     ///< as ScaledStyle; less for broad strokes
-  Image<float> weights = {};                ///< of fitted strokes: difference_weights
   LayerFit* fit = nullptr;                  ///< of fitted strokes: as it was left the last time, and will be
 
   // The depth test; all are empty where the style wants none.

@@ -160,12 +160,13 @@ void keep_within_outlines(const LayerPlan& plan, float radius_px, std::span<Cont
   for (std::size_t i = points.size(); i-- > 1;) follow(i - 1, i);
 }
 
-void add_stroke(const LayerPlan& plan, Place place, const Seed& seed, std::uint64_t random, Layer& layer) {
+void add_stroke(const LayerPlan& plan, const CanvasRows& canvas, Place place, const Seed& seed, std::uint64_t random,
+                Layer& layer) {
   const Style& style = plan.style;
   Stroke stroke;
   stroke.first_point = static_cast<std::uint32_t>(layer.points.size());
   stroke.radius_px = stroke_radius(plan, place, seed);
-  trace_stroke(plan, {seed, stroke.radius_px, (random & 1) != 0}, layer.points);
+  trace_stroke(plan, canvas, {seed, stroke.radius_px, (random & 1) != 0}, layer.points);
   stroke.point_count = static_cast<std::uint32_t>(layer.points.size()) - stroke.first_point;
   const std::span points = std::span(layer.points).subspan(stroke.first_point);
   settle_disparities(plan, stroke.radius_px, points);
@@ -188,7 +189,7 @@ Target target_of(const LayerPlan& plan, const Grid& grid, int column, int row) {
 }
 
 /// The strokes that begin in one row of cells.
-Layer plan_cells(const LayerPlan& plan, const Grid& grid, int row) {
+Layer plan_cells(const LayerPlan& plan, const CanvasRows& canvas, const Grid& grid, int row) {
   const std::vector<CellRun> runs = runs_of_active_cells(plan, grid, row);
   Layer layer;
   if (runs.empty()) return layer;
@@ -202,7 +203,7 @@ Layer plan_cells(const LayerPlan& plan, const Grid& grid, int row) {
   std::vector<float> errors(plan.canvas.width);
   for (int y = grid.top(row); y < grid.top(row + 1); ++y) {
     for (const CellRun& run : runs) {
-      squared_errors(*plan.reference, plan.canvas, {y, grid.left(run.first), grid.left(run.end)}, errors.data());
+      squared_errors(*plan.reference, canvas, {y, grid.left(run.first), grid.left(run.end)}, errors.data());
       for (int column = run.first; column < run.end; ++column)
         improve_seed(plan, grid.place, {y, grid.left(column), grid.left(column + 1)}, errors.data(), targets[column],
                      seeds[column]);
@@ -210,17 +211,28 @@ Layer plan_cells(const LayerPlan& plan, const Grid& grid, int row) {
   }
   for (int column = 0; column < grid.columns(); ++column) {
     if (seeds[column].error > squared_threshold)
-      add_stroke(plan, grid.place, seeds[column], cell_hash(plan, grid.place, column, row, stroke_choices), layer);
+      add_stroke(plan, canvas, grid.place, seeds[column], cell_hash(plan, grid.place, column, row, stroke_choices),
+                 layer);
   }
   return layer;
 }
 
-void plan_place(const LayerPlan& plan, Place place, Layer& layer) {
-  const Grid grid(plan, place);
-  std::vector<Layer> rows(grid.rows());
-  tbb::parallel_for(0, grid.rows(), [&](int row) { rows[row] = plan_cells(plan, grid, row); });
-  for (const Layer& row : rows) append_strokes(row, layer);
-}
+/// A grid, and the strokes that begin in its rows of cells, as far as these are planned.
+struct PlannedGrid {
+  PlannedGrid(const LayerPlan& plan, Place place) : grid(plan, place) {}
+
+  /// Plans the rows of cells that begin above a row of pixels.
+  void plan_above(int end, const LayerPlan& plan, const CanvasRows& canvas) {
+    const int first = static_cast<int>(rows.size());
+    int last = first;
+    while (last < grid.rows() && grid.top(last) < end) ++last;
+    rows.resize(static_cast<std::size_t>(last));
+    tbb::parallel_for(first, last, [&](int row) { rows[row] = plan_cells(plan, canvas, grid, row); });
+  }
+
+  Grid grid;
+  std::vector<Layer> rows;
+};
 
 }  // namespace
 
@@ -239,8 +251,14 @@ Layer plan_layer(const LayerPlan& plan) {
   if (plan.style.marks == Marks::fitted_strokes) return fit_layer(plan);
   Layer layer;
   layer.radius_px = plan.radius_px;
-  plan_place(plan, Place::open, layer);
-  if (!plan.edge_distance.empty()) plan_place(plan, Place::beside_edge, layer);
+  std::vector<PlannedGrid> grids{{plan, Place::open}};
+  if (!plan.edge_distance.empty()) grids.emplace_back(plan, Place::beside_edge);
+  const int margin_px = static_cast<int>(std::ceil(grids.front().grid.cell_px)) + traced_reach_px(plan);
+  for_each_band(plan.canvas, margin_px, [&](const CanvasRows& canvas, int, int end) {
+    for (PlannedGrid& planned : grids) planned.plan_above(end, plan, canvas);
+  });
+  for (const PlannedGrid& planned : grids)
+    for (const Layer& row : planned.rows) append_strokes(row, layer);
   return layer;
 }
 

@@ -10,7 +10,7 @@
 #include "wheatstone/image/colour.h"
 #include "wheatstone/random.h"
 #include "wheatstone/stereo/view_scale.h"
-#include "wheatstone/strokes/bare_pixels_internal.h"
+#include "wheatstone/strokes/begun_canvas_internal.h"
 #include "wheatstone/strokes/depth_edges_internal.h"
 #include "wheatstone/strokes/handed_back_internal.h"
 #include "wheatstone/strokes/jitter_internal.h"
@@ -200,7 +200,7 @@ TEST(Plan, AStrokeEndsBeforeItCoversPaintOfAColourUnlikeItsOwn) {
     for (std::uint8_t& level : bench.reference.luminance.row(y)) level = static_cast<std::uint8_t>(4 * y);
   for (const bool backwards : {false, true}) {
     std::vector<ControlPoint> points;
-    trace_stroke(bench.plan(), {{.x = 30, .y = 30}, 4, backwards}, points);
+    trace_stroke(bench.plan(), {bench.canvas}, {{.x = 30, .y = 30}, 4, backwards}, points);
     EXPECT_GT(points.size(), 4u);
     for (const ControlPoint& point : points) EXPECT_LT(point.x, 50);
   }
@@ -272,7 +272,7 @@ TEST(RepairOfStrokes, BarePixelsOfOneColourAreCoveredByOneThread) {
 TEST(Plan, StrokesRunAcrossTheGradientWithPointsOneRadiusApart) {
   const Bench bench(horizontal_stripes(200, 80));
   std::vector<ControlPoint> points;
-  trace_stroke(bench.plan(), {{.x = 100, .y = 40}, 4, false}, points);
+  trace_stroke(bench.plan(), {bench.canvas}, {{.x = 100, .y = 40}, 4, false}, points);
   ASSERT_GT(points.size(), 4u);
   for (std::size_t i = 1; i < points.size(); ++i) {
     EXPECT_NEAR(std::hypot(points[i].x - points[i - 1].x, points[i].y - points[i - 1].y), 4, 1e-3);
@@ -298,7 +298,8 @@ TEST(Plan, StrokesEndWhereTheCanvasIsNearerThanTheirColour) {
   std::vector<ControlPoint> points;
   // A steady direction to the right is forced by a strong memory of it.
   bench.style.curvature = 0.01f;
-  for (const bool backwards : {false, true}) trace_stroke(bench.plan(), {{.x = 90, .y = 20}, 4, backwards}, points);
+  for (const bool backwards : {false, true})
+    trace_stroke(bench.plan(), {bench.canvas}, {{.x = 90, .y = 20}, 4, backwards}, points);
   for (const ControlPoint& point : points) EXPECT_LT(point.x, 100 + 2 * 4);
 }
 

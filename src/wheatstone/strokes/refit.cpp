@@ -10,6 +10,7 @@
 
 #include "wheatstone/drawing/rasterise.h"
 #include "wheatstone/marks/brush.h"
+#include "wheatstone/strokes/begun_canvas_internal.h"
 #include "wheatstone/strokes/view_to_plan_internal.h"
 
 namespace wheatstone {
@@ -20,17 +21,11 @@ ImageView<const std::uint8_t> outlines(const LayerPlan& plan) {
   return weighs_outlines(plan) ? plan.depth_edges.view() : ImageView<const std::uint8_t>();
 }
 
-/// Whether two sets of weights of one reference can differ only where the detail or the outlines do.
-bool same_but_for_rows(const LayerPlan& plan, const LayerFit& before) {
-  return before.reference == plan.reference && same_size(before.detail, plan.view.detail) &&
-         same_size(before.outlines, outlines(plan));
-}
-
 bool may_compare(const LayerPlan& plan, std::size_t blocks, const LayerFit& before) {
   return before.blocks.size() == blocks && before.style == plan.style && before.radius_px == plan.radius_px &&
          before.least_gain == plan.least_gain && before.depth_threshold_px == plan.depth_threshold_px &&
          same_size(before.disparity, plan.view.disparity) && same_size(before.seeds, plan.seeds) &&
-         (!before.weights.empty() || same_but_for_rows(plan, before));
+         same_size(before.detail, plan.view.detail) && same_size(before.outlines, outlines(plan));
 }
 
 LayerFit nothing_known(const LayerPlan& plan, std::size_t blocks) {
@@ -54,6 +49,24 @@ void mark_differences(std::span<const Pixel> before, std::span<const Pixel> now,
   if (are_equal(before, now)) return;
   for (std::size_t x = 0; x < before.size(); ++x)
     if (!(before[x] == now[x])) differs[x] = 255;
+}
+
+/// Marks the pixels of a row near which two references differ, as far as differences are weighed by them.
+void mark_weighed_differences(const ReferencePicture& before, const ReferencePicture& now, int y,
+                              std::span<std::uint8_t> differs) {
+  thread_local std::vector<std::uint8_t> changed;
+  changed.assign(differs.size(), 0);
+  const int end = std::min(y + weight_reach_px + 1, now.red.height());
+  for (int row = std::max(y - weight_reach_px, 0); row < end; ++row) {
+    mark_differences(before.red.row(row), now.red.row(row), std::span(changed));
+    mark_differences(before.green.row(row), now.green.row(row), std::span(changed));
+    mark_differences(before.blue.row(row), now.blue.row(row), std::span(changed));
+  }
+  constexpr auto reach = std::size_t{weight_reach_px};
+  for (std::size_t x = 0; x < changed.size(); ++x)
+    if (changed[x] != 0)
+      std::fill(&differs[x - std::min(x, reach)], &differs[std::min(x + reach, changed.size() - 1)] + 1,
+                std::uint8_t{255});
 }
 
 /// Marks the pixels in which two rows differ, and makes the first one equal the second.
@@ -95,27 +108,6 @@ bool LayerFit::is_made_from(ImageView<const Rgb8> now, float radius_now_px, cons
   return reference != nullptr && radius_px == radius_now_px && style == style_now && are_equal<Rgb8>(colour, now);
 }
 
-Image<float> weights_again(const LayerPlan& plan, LayerFit& fit) {
-  if (fit.weights.empty() || !same_but_for_rows(plan, fit)) return difference_weights(plan);
-  Image<float> weights = std::exchange(fit.weights, {});
-  const ImageView<const std::uint8_t> edges = outlines(plan), detail = plan.view.detail;
-  const auto differs = [&](int y) {
-    return (!detail.empty() && !are_equal<std::uint8_t>(fit.detail.row(y), detail.row(y))) ||
-           (!edges.empty() && !are_equal<std::uint8_t>(fit.outlines.row(y), edges.row(y)));
-  };
-  for (int first = 0, height = weights.height(); first < height;) {
-    if (!differs(first)) {
-      ++first;
-      continue;
-    }
-    int end = first + 1;
-    while (end < height && differs(end)) ++end;
-    weigh_rows(plan, first, end, weights);
-    first = end;
-  }
-  return weights;
-}
-
 Refit::Refit(const LayerPlan& plan, std::size_t blocks, LayerFit& before)
     : before_(before), differs_(plan.canvas.width, plan.canvas.height) {
   if (!may_compare(plan, blocks, before)) {
@@ -137,14 +129,8 @@ Refit::Refit(const LayerPlan& plan, std::size_t blocks, LayerFit& before)
 
 void Refit::compare_row(const LayerPlan& plan, int y) {
   const auto differs = differs_.row(y);
-  if (before_.reference != nullptr && before_.reference != plan.reference) {
-    const ReferencePicture &was = *before_.reference, &is = *plan.reference;
-    mark_differences(was.red.row(y), is.red.row(y), differs);
-    mark_differences(was.green.row(y), is.green.row(y), differs);
-    mark_differences(was.blue.row(y), is.blue.row(y), differs);
-  }
-  if (!before_.weights.empty())
-    mark_differences(std::as_const(before_.weights).row(y), std::as_const(plan.weights).row(y), differs);
+  if (before_.reference != nullptr && before_.reference != plan.reference)
+    mark_weighed_differences(*before_.reference, *plan.reference, y, differs);
   take_over(before_.disparity.row(y), std::span<const float>(plan.view.disparity.row(y)), differs);
   if (!plan.seeds.empty()) take_over(before_.seeds.row(y), plan.seeds.row(y), differs);
   const auto begun = before_.canvases.front().row(y);
@@ -152,7 +138,7 @@ void Refit::compare_row(const LayerPlan& plan, int y) {
   if (rows.empty() || rows[static_cast<std::size_t>(y)] != 0) {
     thread_local std::vector<PaintedPixel> painted;
     painted.resize(differs.size());
-    take_painted_row(plan.canvas, y, painted);
+    take_painted_row(plan.canvas.canvas, y, painted);
     take_over(begun, std::span<const PaintedPixel>(painted), differs);
   }
   if (has_any(differs)) std::ranges::copy(begun, before_.canvas.row(y).begin());
@@ -276,16 +262,18 @@ void compare_band(const CanvasBand& before, const Canvas& painted, DifferingRows
 
 }  // namespace
 
-Canvas enlarge_again(const Canvas& smaller, int factor, int width, int height, LayerDrawing& drawing) {
+Canvas enlarge_again(const BegunCanvas& begun, LayerDrawing& drawing) {
+  const int width = begun.width, height = begun.height;
   std::optional<Canvas> kept = std::exchange(drawing.begun, {});
   const auto rows = static_cast<std::size_t>(height);
   if (!kept || kept->width != width || kept->height != height || drawing.differs.size() != rows) {
     drawing.differs.assign(rows, 1);
-    return larger_canvas(smaller, factor, width, height);
+    return enlarged_canvas(begun);
   }
   const std::vector<std::uint8_t> bands = bands_of(drawing.differs);
   tbb::parallel_for(0, static_cast<int>(bands.size()), [&](int band) {
-    if (bands[static_cast<std::size_t>(band)] != 0) enlarge_band(smaller, factor, band, *kept);
+    if (bands[static_cast<std::size_t>(band)] != 0)
+      enlarge_rows(begun, band * band_rows, std::min((band + 1) * band_rows, height), *kept);
   });
   return std::move(*kept);
 }

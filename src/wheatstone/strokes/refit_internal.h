@@ -20,11 +20,6 @@ namespace wheatstone {
 inline constexpr int fit_waves = 4;   ///< in which the blocks of a layer are planned
 inline constexpr int fit_passes = 2;  ///< over a block's cells, the second shifted by half a cell
 
-/// Columns [left, right) and rows [top, bottom) of a picture.
-struct PixelArea {
-  int left, top, right, bottom;
-};
-
 /// What became of a cell: no stroke may gain in it as its pass begins; or it was left out later; or a stroke was fitted
 /// from the pixel `anchor` of its tile and gained too little, or was painted.
 struct CellOutcome {
@@ -72,7 +67,6 @@ struct LayerFit {
   std::shared_ptr<const ReferencePicture> reference;
   Image<std::uint8_t> seeds, detail, outlines;
   Image<float> disparity;
-  Image<float> weights;  ///< empty while the layer's plan has them
   /// The canvas as each wave began.
   std::array<PaintedPicture, fit_waves> canvases;
   PaintedPicture canvas;  ///< on which the layer is planned; holds something only where that is needed
@@ -82,9 +76,6 @@ struct LayerFit {
   /// Whether the reference was made from these.
   bool is_made_from(ImageView<const Rgb8> now, float radius_now_px, const Style& style_now) const;
 };
-
-/// As difference_weights, which are taken from the fit where they depend on nothing that differs.
-Image<float> weights_again(const LayerPlan& plan, LayerFit& fit);
 
 /// What planning a view leaves behind.
 struct ViewFit {
@@ -129,8 +120,8 @@ class Refit {
   Image<std::uint8_t> differs_;
 };
 
-/// The canvas of the layer before in a picture `factor` times larger, for a layer that begins on it.
-Canvas enlarge_again(const Canvas& smaller, int factor, int width, int height, LayerDrawing& drawing);
+/// As enlarged_canvas, for the layer that begins on it.
+Canvas enlarge_again(const BegunCanvas& begun, LayerDrawing& drawing);
 
 /// Draws a layer's strokes, whose numbers ascend, on the canvas on which it began, to `drawing.painted`, and marks
 /// where that differs.

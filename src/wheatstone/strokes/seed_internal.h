@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <span>
 
+#include "wheatstone/strokes/begun_canvas_internal.h"
 #include "wheatstone/strokes/layer_plan.h"
 
 namespace wheatstone {
@@ -39,6 +40,6 @@ struct RowPart {
 
 /// Squared RGB distances between reference and canvas, `bare_error` where the canvas is bare; `errors` has the canvas's
 /// width, and only the part's columns are written.
-void squared_errors(const ReferencePicture& reference, const Canvas& canvas, const RowPart& part, float* errors);
+void squared_errors(const ReferencePicture& reference, const CanvasRows& rows, const RowPart& part, float* errors);
 
 }  // namespace wheatstone

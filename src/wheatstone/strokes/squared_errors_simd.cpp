@@ -9,16 +9,18 @@ HWY_BEFORE_NAMESPACE();
 namespace wheatstone::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-void errors_of_row(const ReferencePicture& reference, const Canvas& canvas, const RowPart& part, float* errors) {
+void errors_of_row(const ReferencePicture& reference, const CanvasRows& rows, const RowPart& part, float* errors) {
   const hn::CappedTag<float, Canvas::widest_vector> f;
   const hn::Rebind<std::uint8_t, decltype(f)> bytes;
   const hn::Rebind<std::int32_t, decltype(f)> ints;
   const int lanes = static_cast<int>(hn::Lanes(f));
-  const int row = part.row;
+  const int row = part.row, painted_row = part.row - rows.top;
+  const Canvas& canvas = rows.canvas;
   const std::uint8_t* wanted[] = {reference.red.row(row).data(), reference.green.row(row).data(),
                                   reference.blue.row(row).data()};
-  const float* painted[] = {canvas.red.row(row).data(), canvas.green.row(row).data(), canvas.blue.row(row).data()};
-  const float* coverage = canvas.coverage.row(row).data();
+  const float* painted[] = {canvas.red.row(painted_row).data(), canvas.green.row(painted_row).data(),
+                            canvas.blue.row(painted_row).data()};
+  const float* coverage = canvas.coverage.row(painted_row).data();
   const auto half = hn::Set(f, 0.5f), bare = hn::Set(f, bare_error);
   int x = part.begin;
   for (; x + lanes <= part.end; x += lanes) {
@@ -49,8 +51,8 @@ namespace wheatstone {
 
 HWY_EXPORT(errors_of_row);
 
-void squared_errors(const ReferencePicture& reference, const Canvas& canvas, const RowPart& part, float* errors) {
-  HWY_DYNAMIC_DISPATCH(errors_of_row)(reference, canvas, part, errors);
+void squared_errors(const ReferencePicture& reference, const CanvasRows& rows, const RowPart& part, float* errors) {
+  HWY_DYNAMIC_DISPATCH(errors_of_row)(reference, rows, part, errors);
 }
 
 }  // namespace wheatstone

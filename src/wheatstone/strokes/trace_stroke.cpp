@@ -68,9 +68,9 @@ bool crosses_depth_edge(const LayerPlan& plan, const ControlPoint& from, const C
 
 /// True where a stroke would come to lie on paint although the picture's colour there is unlike its own: one of the
 /// least length would cover small things that no finer layer need bring back.
-bool would_cover_unlike(const LayerPlan& plan, const Rgb& colour, const ControlPoint& to) {
+bool would_cover_unlike(const LayerPlan& plan, const CanvasRows& rows, const Rgb& colour, const ControlPoint& to) {
   const int x = static_cast<int>(to.x), y = static_cast<int>(to.y);
-  const bool bare = plan.canvas.coverage(x, y) < 0.5f;
+  const bool bare = rows.canvas.coverage(x, y - rows.top) < 0.5f;
   return !bare && squared_distance(reference_at(*plan.reference, x, y), colour) > unlike_colours * unlike_colours;
 }
 
@@ -88,7 +88,12 @@ bool would_spill(const LayerPlan& plan, float radius_px, bool edgeways, const Co
 
 }  // namespace
 
-void trace_stroke(const LayerPlan& plan, const StrokeStart& start, std::vector<ControlPoint>& points) {
+int traced_reach_px(const LayerPlan& plan) {
+  return static_cast<int>(std::ceil(static_cast<float>(plan.style.max_length) * plan.radius_px)) + 1;
+}
+
+void trace_stroke(const LayerPlan& plan, const CanvasRows& rows, const StrokeStart& start,
+                  std::vector<ControlPoint>& points) {
   const Style& style = plan.style;
   const Seed& seed = start.seed;
   const Rgb colour = reference_at(*plan.reference, seed.x, seed.y);
@@ -104,8 +109,10 @@ void trace_stroke(const LayerPlan& plan, const StrokeStart& start, std::vector<C
 
     // (b) the canvas is already nearer to the picture than the stroke's colour would be
     const Rgb wanted = reference_at(*plan.reference, x, y);
-    const Rgb painted{plan.canvas.red(x, y), plan.canvas.green(x, y), plan.canvas.blue(x, y)};
-    const bool bare = plan.canvas.coverage(x, y) < 0.5f;
+    const Canvas& canvas = rows.canvas;
+    const int row = y - rows.top;
+    const Rgb painted{canvas.red(x, row), canvas.green(x, row), canvas.blue(x, row)};
+    const bool bare = canvas.coverage(x, row) < 0.5f;
     if (length >= style.min_length && !bare && squared_distance(wanted, painted) < squared_distance(wanted, colour)) {
       return;
     }
@@ -123,7 +130,8 @@ void trace_stroke(const LayerPlan& plan, const StrokeStart& start, std::vector<C
     ControlPoint next{point.x + plan.radius_px * direction->x, point.y + plan.radius_px * direction->y, 0};
     if (!(next.x >= 0 && next.y >= 0 && next.x < width && next.y < height)) return;
     next.disparity = plan.view.disparity(static_cast<int>(next.x), static_cast<int>(next.y));
-    if (would_spill(plan, start.radius_px, edgeways, point, next) || would_cover_unlike(plan, colour, next)) return;
+    if (would_spill(plan, start.radius_px, edgeways, point, next) || would_cover_unlike(plan, rows, colour, next))
+      return;
     points.push_back(next);
     point = next;
   }

@@ -10,6 +10,7 @@
 #include "wheatstone/stereo/occlusion.h"
 #include "wheatstone/stereo/view_scale.h"
 #include "wheatstone/strokes/bare_pixels_internal.h"
+#include "wheatstone/strokes/begun_canvas_internal.h"
 #include "wheatstone/strokes/carry_strokes_internal.h"
 #include "wheatstone/strokes/fit_stroke_internal.h"
 #include "wheatstone/strokes/handed_back_internal.h"
@@ -77,14 +78,15 @@ ViewPainter::~ViewPainter() { give_back_canvas(); }  // to fits, which must stil
 
 void ViewPainter::plan(int layer, const CarryOptions& options, TrackedLayer& tracked, std::span<LayerFit> fits) {
   LayerFit* const fit = fits.empty() ? nullptr : &fits[static_cast<std::size_t>(layer)];
-  go_to_size(factor_for(layer), fit);
+  const std::size_t carried = tracked.tracks.size();
+  const bool compares = options.goes_on || carried != 0;
+  const bool finest = layer + 1 == static_cast<int>(radii_px_.size());
+  const bool stays_small = !compares && fit == nullptr && needs_no_whole_canvas(layer);
+  go_to_size(factor_for(layer), fit, stays_small);
   if (at_->view.colour.empty()) return;
   LayerPlan plan = make_layer_plan(*at_, style_, layer, fit);
   Image<std::uint8_t> seeds;
-  const std::size_t carried = tracked.tracks.size();
-  const bool compares = options.goes_on || carried != 0;
   const Image<float> before = compares ? errors_left(plan) : Image<float>();
-  const bool finest = layer + 1 == static_cast<int>(radii_px_.size());
   std::optional<Canvas> below;
   if (carried != 0 && !finest) below = at_->canvas;
   if (carried != 0) {
@@ -97,9 +99,8 @@ void ViewPainter::plan(int layer, const CarryOptions& options, TrackedLayer& tra
     seeds = where_strokes_are_missing(plan, before, tracked);
     plan.seeds = seeds;
   }
-  Image<std::uint8_t> bare = finest ? bare_pixels(at_->canvas, at_->view.wanted) : Image<std::uint8_t>();
-  Layer begun = finest && !compares && fit == nullptr ? plan_last(plan) : plan_layer(plan);
-  if (fit != nullptr) fit->weights = std::move(plan.weights);
+  Image<std::uint8_t> bare = finest ? bare_pixels(at_->begun(), at_->view.wanted) : Image<std::uint8_t>();
+  Layer begun = finest && stays_small ? plan_last(plan) : plan_layer(plan);
   numbers_.give(fitted_places(plan), begun);
   put_in_order(begun, style_);
   add(begun, plan, before, options, tracked);
@@ -118,6 +119,8 @@ void ViewPainter::plan(int layer, const CarryOptions& options, TrackedLayer& tra
       fit->drawing.differs.clear();
     else
       std::ranges::fill(fit->drawing.differs, std::uint8_t{0});
+  } else if (!finest && at_->canvas_factor > 1) {
+    at_->to_draw = {begun, at_->view.position, hiding(), cover_of_brush(layer)};
   } else if (!finest) {
     rasterise(begun, at_->view.position, hiding(), at_->canvas, cover_of_brush(layer));
   }
@@ -129,9 +132,9 @@ void ViewPainter::plan(int layer, const CarryOptions& options, TrackedLayer& tra
 /// Plans a layer after which nothing needs the canvas: that of a large picture takes much memory.
 Layer ViewPainter::plan_last(const LayerPlan& plan) {
   if (style_.marks != Marks::fitted_strokes) return plan_layer(plan);
-  PaintedPicture canvas = painted_picture(at_->canvas);
-  Canvas& spent = at_->canvas;
-  spent.red = spent.green = spent.blue = spent.coverage = {};
+  PaintedPicture canvas = painted_picture(plan.canvas);
+  at_->canvas = Canvas(0, 0, {});
+  at_->to_draw.reset();
   return fit_layer(plan, std::move(canvas));
 }
 
@@ -153,17 +156,28 @@ int ViewPainter::factor_for(int layer) const {
   return is_finest ? 1 : factor_for_layer(view_, radii_px_[number], least_radius_px);
 }
 
-void ViewPainter::go_to_size(int factor, LayerFit* fit) {
+/// Whether a layer can do without a canvas of its own size: what is drawn on it is nothing, or looked at by the finest
+/// layer alone.
+bool ViewPainter::needs_no_whole_canvas(int layer) const {
+  const bool last_but_one = layer + 2 == static_cast<int>(radii_px_.size());
+  return layer + 1 == static_cast<int>(radii_px_.size()) ||
+         (last_but_one && style_.marks == Marks::fitted_strokes && factor_for(layer) == 1);
+}
+
+/// `stays_small`: the canvas keeps its size.
+void ViewPainter::go_to_size(int factor, LayerFit* fit, bool stays_small) {
   if (at_ && at_->view.frame.scale == view_.frame.scale * factor) return;
   const View view = smaller_view(view_, factor);
   if (at_) {
     const int enlarged = at_->view.frame.scale / view.frame.scale;
-    const int width = view.colour.width(), height = view.colour.height();
-    Canvas canvas = fit == nullptr ? larger_canvas(at_->canvas, enlarged, width, height)
-                                   : enlarge_again(at_->canvas, enlarged, width, height, fit->drawing);
+    const BegunCanvas begun(at_->canvas, enlarged, view.colour.width(), view.colour.height());
+    Canvas canvas = stays_small      ? std::move(at_->canvas)
+                    : fit == nullptr ? enlarged_canvas(begun)
+                                     : enlarge_again(begun, fit->drawing);
     give_back_canvas();
     if (fit != nullptr) owner_of_canvas_ = &fit->drawing.begun;
     at_.emplace(view, style_, reference_width_, std::move(canvas));
+    if (stays_small) at_->canvas_factor = enlarged;
   } else {
     at_.emplace(view, style_, reference_width_);
   }
@@ -259,7 +273,7 @@ Image<float> ViewPainter::errors_left(const LayerPlan& plan) const {
   const int width = view.colour.width(), height = view.colour.height();
   Image<float> errors(width, height);
   tbb::parallel_for(0, height, [&](int y) {
-    squared_errors(*plan.reference, plan.canvas, {y, 0, width}, errors.row(y).data());
+    squared_errors(*plan.reference, {plan.canvas.canvas}, {y, 0, width}, errors.row(y).data());
     if (view.wanted.empty()) return;
     for (int x = 0; x < width; ++x)
       if (view.wanted(x, y) == 0) errors(x, y) = -1;
@@ -303,7 +317,7 @@ Image<std::uint8_t> ViewPainter::where_strokes_are_missing(const LayerPlan& plan
   const float squared_threshold = style_.threshold * style_.threshold;
   tbb::parallel_for(0, seeds.height(), [&](int y) {
     for (int x = 0; x < seeds.width(); ++x) {
-      if (plan.canvas.coverage(x, y) < 0.5f) seeds(x, y) = before(x, y) > squared_threshold ? 255 : 0;
+      if (plan.canvas.canvas.coverage(x, y) < 0.5f) seeds(x, y) = before(x, y) > squared_threshold ? 255 : 0;
       const bool may_begin = before(x, y) >= 0 && begun(x, y) == 0;
       if (may_begin && !plan.misplaced.empty() && plan.misplaced(x, y) != 0) seeds(x, y) = 255;
     }

@@ -38,7 +38,8 @@ class ViewPainter {
  private:
   bool is_whole() const;
   int factor_for(int layer) const;
-  void go_to_size(int factor, LayerFit* fit);
+  bool needs_no_whole_canvas(int layer) const;
+  void go_to_size(int factor, LayerFit* fit, bool stays_small);
   void give_back_canvas();
   void draw_again(const Layer& strokes, int layer, std::span<LayerFit> fits);
   Layer plan_last(const LayerPlan& plan);

@@ -151,40 +151,6 @@ Layer dots_left_out(const View& part, const View& smaller) {
   return dots;
 }
 
-void enlarge_band(const Canvas& smaller, int factor, int band, Canvas& canvas) {
-  constexpr int reach = 2;  // of what the rows are interpolated from, and one to spare
-  const int first = band * band_rows, end = std::min(first + band_rows, canvas.height);
-  const int rows = std::min(smaller.height * factor, canvas.height);
-  const int columns = std::min(smaller.width * factor, canvas.width);
-  const int from_row = std::max(std::min(first, rows - 1) / factor - reach, 0);
-  const int from_end = std::min((end + factor - 1) / factor + reach, smaller.height);
-  const auto enlarge = [&](const Image<float>& from, Image<float>& to) {
-    const cv::Mat small = as_mat(from)(cv::Rect(0, from_row, smaller.width, from_end - from_row));
-    cv::Mat large;
-    cv::resize(small, large, {small.cols * factor, small.rows * factor}, 0, 0, cv::INTER_LINEAR);
-    const auto width = static_cast<std::size_t>(columns);
-    for (int y = first; y < end; ++y) {
-      const auto own = to.row(y).first(static_cast<std::size_t>(canvas.width));
-      std::copy_n(large.ptr<float>(std::min(y, rows - 1) - from_row * factor), width, own.begin());
-      std::ranges::fill(own.subspan(width), own[width - 1]);
-    }
-  };
-  enlarge(smaller.red, canvas.red);
-  enlarge(smaller.green, canvas.green);
-  enlarge(smaller.blue, canvas.blue);
-  enlarge(smaller.coverage, canvas.coverage);
-  for (int y = first; y < end; ++y) {
-    const auto own = canvas.coverage.row(y).first(static_cast<std::size_t>(canvas.width));
-    std::ranges::fill(own.subspan(y < rows ? static_cast<std::size_t>(columns) : 0), 0.f);
-  }
-}
-
-Canvas larger_canvas(const Canvas& smaller, int factor, int width, int height) {
-  Canvas canvas(width, height, {});
-  tbb::parallel_for(0, band_count(height), [&](int band) { enlarge_band(smaller, factor, band, canvas); });
-  return canvas;
-}
-
 int factor_for_layer(const View& view, float radius_px, float least_radius_px) {
   constexpr int least_side_px = 16;
   const int side_px = std::min(view.colour.width(), view.colour.height());

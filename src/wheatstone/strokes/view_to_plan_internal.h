@@ -25,9 +25,4 @@ Layer dots_left_out(const View& part, const View& smaller);
 /// proportional to the number of pixels.
 int factor_for_layer(const View& view, float radius_px, float least_radius_px);
 
-/// Makes a band of rows of a canvas (drawing/rasterise.h) from a canvas that is `factor` times smaller. Border pixels
-/// that the smaller picture left out are bare, and have the colours beside them.
-void enlarge_band(const Canvas& smaller, int factor, int band, Canvas& canvas);
-Canvas larger_canvas(const Canvas& smaller, int factor, int width, int height);
-
 }  // namespace wheatstone
