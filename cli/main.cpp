@@ -14,6 +14,7 @@
 
 #include "interrupt.h"
 #include "run.h"
+#include "wheatstone/app/process_memory.h"
 #include "wheatstone/ranks/launch.h"
 
 namespace {
@@ -37,6 +38,7 @@ void silence_unless_first() {
 
 int main(int argc, char** argv) {
   silence_unless_first();
+  wheatstone::use_huge_pages();
   // Results wait until the progress bar is gone, which would share their line.
   std::setvbuf(stdout, nullptr, _IOFBF, 1 << 16);
   std::cerr.tie(nullptr);

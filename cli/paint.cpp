@@ -20,6 +20,7 @@
 #include "views_argument.h"
 #include "wheatstone/app/detail_map.h"
 #include "wheatstone/app/paint_photograph.h"
+#include "wheatstone/app/process_memory.h"
 #include "wheatstone/app/render_limits.h"
 #include "wheatstone/app/write_results.h"
 #include "wheatstone/depth/display_presets.h"

@@ -9,6 +9,7 @@
 #include "bindings.h"
 #include "calls.h"
 #include "particles.h"
+#include "wheatstone/app/process_memory.h"
 #include "wheatstone/error.h"
 
 namespace py = pybind11;
@@ -47,6 +48,7 @@ void translate(std::exception_ptr thrown) {
 PYBIND11_MODULE(_wheatstone, module) {
   module.attr("__version__") = WHEATSTONE_VERSION;
   py::register_exception_translator(translate);
+  wheatstone::use_huge_pages();
   wheatstone::python::add_end_of_calls(module);
   wheatstone::python::add_painting(module);
   wheatstone::python::add_particles(module);

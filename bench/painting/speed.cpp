@@ -12,6 +12,7 @@
 
 #include "stopwatch.h"
 #include "wheatstone/app/paint_photograph.h"
+#include "wheatstone/app/process_memory.h"
 #include "wheatstone/depth/rig.h"
 #include "wheatstone/drawing/draw.h"
 #include "wheatstone/image/mat_opencv.h"
@@ -113,7 +114,9 @@ int main(int argument_count, char** arguments) {
   const int threads = argument_count > 1 ? std::atoi(arguments[1]) : tbb::info::default_concurrency();
   const tbb::global_control control(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
   cv::setNumThreads(threads);
-  wheatstone::keep_freed_memory();  // as the program does
+  // As the program does.
+  wheatstone::use_huge_pages();
+  wheatstone::keep_freed_memory();
   fmt::print(
       "Painting the synthetic still, impressionist, disparity given, {} threads.\n"
       "Both eyes as multiples of one eye's time; P planning, R rasterising of one eye.\n\n",

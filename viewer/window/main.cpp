@@ -28,6 +28,7 @@
 #include "study_window.h"
 #include "viewer/command_table.h"
 #include "viewer/control.h"
+#include "wheatstone/app/process_memory.h"
 #include "wheatstone/display/looking_glass_bridge.h"
 #include "wheatstone/error.h"
 #include "wheatstone/files/unfinished_outputs.h"
@@ -207,6 +208,7 @@ int main(int argc, char** argv) {
     cv::redirectError([](int, const char*, const char*, const char*, int, void*) { return 0; });
     cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
     qInstallMessageHandler(wheatstone::viewer::on_message_of_qt);
+    wheatstone::use_huge_pages();
     const bool is_study = argc > 1 && std::string_view(argv[1]) == "study";
     return is_study ? wheatstone::viewer::run_study(argc - 1, argv + 1) : wheatstone::viewer::run_view(argc, argv);
   } catch (...) {

@@ -15,10 +15,6 @@
 #include "wheatstone/stereo/fitting_pair.h"
 #include "wheatstone/stereo/geometry_from_disparity.h"
 
-#ifdef __GLIBC__
-#include <malloc.h>
-#endif
-
 namespace wheatstone {
 namespace {
 
@@ -36,14 +32,6 @@ Image<std::uint8_t> found_detail(ImageView<const Rgb8> left, const PaintPhotogra
 }
 
 }  // namespace
-
-void keep_freed_memory() {
-#ifdef __GLIBC__
-  constexpr int large_bytes = 9 << 20, most_kept_bytes = 256 << 20;
-  mallopt(M_MMAP_THRESHOLD, large_bytes);
-  mallopt(M_TRIM_THRESHOLD, most_kept_bytes);
-#endif
-}
 
 float screen_disparity(const ZeroParallax& wanted, const StereoGeometry& geometry) {
   if (wanted.disparity_px) return *wanted.disparity_px;

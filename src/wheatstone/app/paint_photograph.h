@@ -14,11 +14,6 @@
 
 namespace wheatstone {
 
-/// For programs that paint: memory that is freed serves the next picture. What goes back to the system comes again page
-/// by page, each to be cleared: a tenth of the time of a painting. Only what is large goes back at once: kept, it would
-/// be in the way of pictures of other sizes, and painting 12 megapixels would take a tenth more memory.
-void keep_freed_memory();
-
 /// Which disparity lies on the screen plane.
 struct ZeroParallax {
   std::optional<float> disparity_px;      ///< this one
