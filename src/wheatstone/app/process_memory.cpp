@@ -1,16 +1,16 @@
 #include "wheatstone/app/process_memory.h"
 
-#ifdef __GLIBC__
-#include <malloc.h>
-#include <sys/mman.h>
-#endif
-
 #include <algorithm>
 #include <atomic>
 #include <cstdint>
 #include <cstdlib>
 #include <new>
 #include <opencv2/core/mat.hpp>
+
+#ifdef __GLIBC__
+#include <malloc.h>
+#include <sys/mman.h>
+#endif
 
 namespace wheatstone {
 namespace {
@@ -22,11 +22,9 @@ void* in_huge_pages(void* memory, std::size_t bytes) {
 #ifdef __GLIBC__
   constexpr std::size_t least_bytes = std::size_t{1} << 20;
   if (memory == nullptr || bytes < least_bytes || !asks_for_huge_pages.load(std::memory_order_relaxed)) return memory;
-  constexpr std::uintptr_t page_bytes = 4096;
-  const auto begin = reinterpret_cast<std::uintptr_t>(memory);
-  const std::uintptr_t first = (begin + page_bytes - 1) / page_bytes * page_bytes;
-  const std::uintptr_t end = (begin + bytes) / page_bytes * page_bytes;
-  ::madvise(reinterpret_cast<void*>(first), end - first, MADV_HUGEPAGE);
+  constexpr std::size_t page_bytes = 4096;
+  const std::size_t to_page = (page_bytes - reinterpret_cast<std::uintptr_t>(memory) % page_bytes) % page_bytes;
+  ::madvise(static_cast<char*>(memory) + to_page, (bytes - to_page) / page_bytes * page_bytes, MADV_HUGEPAGE);
 #endif
   return memory;
 }

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "wheatstone/depth/warp_row.h"
+#include "wheatstone/image/shared_image.h"
 
 namespace wheatstone {
 namespace {
