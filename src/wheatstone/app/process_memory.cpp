@@ -10,6 +10,7 @@
 #ifdef __GLIBC__
 #include <malloc.h>
 #include <sys/mman.h>
+#include <unistd.h>
 #endif
 
 namespace wheatstone {
@@ -22,7 +23,7 @@ void* in_huge_pages(void* memory, std::size_t bytes) {
 #ifdef __GLIBC__
   constexpr std::size_t least_bytes = std::size_t{1} << 20;
   if (memory == nullptr || bytes < least_bytes || !asks_for_huge_pages.load(std::memory_order_relaxed)) return memory;
-  constexpr std::size_t page_bytes = 4096;
+  static const auto page_bytes = static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
   const std::size_t to_page = (page_bytes - reinterpret_cast<std::uintptr_t>(memory) % page_bytes) % page_bytes;
   ::madvise(static_cast<char*>(memory) + to_page, (bytes - to_page) / page_bytes * page_bytes, MADV_HUGEPAGE);
 #endif
@@ -55,15 +56,23 @@ void keep_freed_memory() {
 }
 
 void use_huge_pages() {
-  static HugePages huge_pages;
+  static auto* const huge_pages = new HugePages;  // pictures may be freed until the very end
   asks_for_huge_pages = true;
-  cv::Mat::setDefaultAllocator(&huge_pages);
+  cv::Mat::setDefaultAllocator(huge_pages);
 }
 
 }  // namespace wheatstone
 
 // Sanitizers have their own.
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define WHEATSTONE_CHECKS_MEMORY
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#define WHEATSTONE_CHECKS_MEMORY
+#endif
+#endif
+
+#ifndef WHEATSTONE_CHECKS_MEMORY
 
 void* operator new(std::size_t bytes) {
   for (;;) {

@@ -8,8 +8,9 @@ namespace wheatstone {
 void keep_freed_memory();
 
 /// For programs and modules: large blocks that `new` and OpenCV allocate from now on lie in huge pages, where the
-/// system gives them to those who ask (Linux). Touching ordinary pages for the first time, and finding where they lie,
-/// is up to half of the time of a large painting. Who links this gets the `operator new` that comes with it.
+/// system gives them on request (Linux). Touching ordinary pages for the first time, and finding where they lie, is up
+/// to half of the time of a large painting. Whatever calls a function of this header gets an `operator new` of ours;
+/// blocks with an alignment of their own are left as they are.
 void use_huge_pages();
 
 }  // namespace wheatstone

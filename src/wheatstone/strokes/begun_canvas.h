@@ -6,7 +6,7 @@
 
 namespace wheatstone {
 
-/// Strokes that are to be drawn on a canvas, in its pixels.
+/// Strokes that are to be drawn on a canvas, in its pixels. Borrows what hides them.
 struct StrokesToDraw {
   Layer layer;
   ViewPosition view;

@@ -3,6 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cstdint>
 
 #include "wheatstone/drawing/rasterise.h"
@@ -23,9 +24,10 @@ void enlarge_rows(const BegunCanvas& begun, int first, int end, Canvas& to, int 
 Canvas enlarged_canvas(const BegunCanvas& begun);
 
 /// Calls `work(rows, first, end)` for all rows [first, end) of the layer's pictures, band after band. `rows` holds the
-/// begun canvas, without its strokes, from `margin_px` above a band to as much below it.
+/// begun canvas from `margin_px` above a band to as much below it. Only for a canvas without strokes.
 template <class Work>
 void for_each_band(const BegunCanvas& begun, int margin_px, Work work) {
+  assert(begun.strokes == nullptr);
   if (begun.factor == 1) return work(CanvasRows{begun.canvas}, 0, begun.height);
   const int rows_of_band = std::max(256, 2 * margin_px);
   for (int first = 0; first < begun.height; first += rows_of_band) {

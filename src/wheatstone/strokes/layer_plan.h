@@ -53,8 +53,9 @@ inline constexpr float known_edge_distance_px = 3;
 
 struct LayerFit;
 
-/// What one layer of a view is planned from. Everything has the view's size and is in the view's pixels: a planner
-/// knows neither how they are scaled nor which view is the reference. Borrows what it refers to.
+/// What one layer of a view is planned from. Everything but the canvas, which may be smaller, has the view's size and
+/// is in the view's pixels: a planner knows neither how they are scaled nor which view is the reference. Borrows what
+/// it refers to.
 struct LayerPlan {
   const Style& style;
   const View& view;

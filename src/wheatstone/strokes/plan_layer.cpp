@@ -253,7 +253,8 @@ Layer plan_layer(const LayerPlan& plan) {
   layer.radius_px = plan.radius_px;
   std::vector<PlannedGrid> grids{{plan, Place::open}};
   if (!plan.edge_distance.empty()) grids.emplace_back(plan, Place::beside_edge);
-  const int margin_px = static_cast<int>(std::ceil(grids.front().grid.cell_px)) + traced_reach_px(plan);
+  const float cell_px = std::max(grids.front().grid.cell_px, grids.back().grid.cell_px);
+  const int margin_px = static_cast<int>(std::ceil(cell_px)) + traced_reach_px(plan);
   for_each_band(plan.canvas, margin_px, [&](const CanvasRows& canvas, int, int end) {
     for (PlannedGrid& planned : grids) planned.plan_above(end, plan, canvas);
   });

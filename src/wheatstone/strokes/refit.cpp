@@ -11,7 +11,6 @@
 #include "wheatstone/drawing/rasterise.h"
 #include "wheatstone/marks/brush.h"
 #include "wheatstone/strokes/begun_canvas_internal.h"
-#include "wheatstone/strokes/view_to_plan_internal.h"
 
 namespace wheatstone {
 namespace {

@@ -103,6 +103,27 @@ std::vector<PaintedFrame> with_new_bristles(const std::vector<PaintedFrame>& fra
   return drawn;
 }
 
+/// The strokes of the second frame of the film, once a layer has lost its own.
+std::size_t strokes_of_second_frame(std::size_t lost_layer, const CarryOptions& options) {
+  const Style oil = style_by_name("oil");
+  StrokeMemory memory;
+  const std::vector<View> first = film().scene(0), second = film().scene(1);
+  plan_strokes({first, nullptr}, oil, {}, memory);
+  for (std::vector<TrackedLayer>& layers : memory.views) layers.at(lost_layer) = {};
+  std::size_t count = 0;
+  for (const Layer& layer : plan_strokes({second, film().flow_to(1)}, oil, options, memory).painting.layers)
+    count += layer.strokes.size();
+  return count;
+}
+
+TEST(StrokesInTime, AreAsManyInTheLastFrameWhicheverLayerCarriesNone) {
+  for (const std::size_t lost_layer : {0, 1, 2, 3}) {
+    const auto usual = static_cast<double>(strokes_of_second_frame(lost_layer, {}));
+    EXPECT_NEAR(static_cast<double>(strokes_of_second_frame(lost_layer, {.goes_on = false})), usual, 0.1 * usual)
+        << lost_layer;
+  }
+}
+
 TEST(StrokesInTime, KeepTheirBristles) {
   Style style = style_by_name("oil");
   style.brush.streaks = 60;

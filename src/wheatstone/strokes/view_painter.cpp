@@ -81,7 +81,9 @@ void ViewPainter::plan(int layer, const CarryOptions& options, TrackedLayer& tra
   const std::size_t carried = tracked.tracks.size();
   const bool compares = options.goes_on || carried != 0;
   const bool finest = layer + 1 == static_cast<int>(radii_px_.size());
-  const bool stays_small = !compares && fit == nullptr && needs_no_whole_canvas(layer);
+  // The same for all layers of a view: a canvas that stays small in one is small in the next.
+  const bool is_new = motion_ == nullptr && !options.goes_on && fit == nullptr;
+  const bool stays_small = is_new && needs_no_whole_canvas(layer);
   go_to_size(factor_for(layer), fit, stays_small);
   if (at_->view.colour.empty()) return;
   LayerPlan plan = make_layer_plan(*at_, style_, layer, fit);
@@ -156,15 +158,15 @@ int ViewPainter::factor_for(int layer) const {
   return is_finest ? 1 : factor_for_layer(view_, radii_px_[number], least_radius_px);
 }
 
-/// Whether a layer can do without a canvas of its own size: what is drawn on it is nothing, or looked at by the finest
-/// layer alone.
+/// Whether a layer of new strokes needs no canvas of its own size: that is the finest layer, on which nothing is drawn,
+/// and the fitted one before it, whose strokes only the finest layer looks at.
 bool ViewPainter::needs_no_whole_canvas(int layer) const {
   const bool last_but_one = layer + 2 == static_cast<int>(radii_px_.size());
   return layer + 1 == static_cast<int>(radii_px_.size()) ||
          (last_but_one && style_.marks == Marks::fitted_strokes && factor_for(layer) == 1);
 }
 
-/// `stays_small`: the canvas keeps its size.
+/// `stays_small`: the canvas keeps the size that it has.
 void ViewPainter::go_to_size(int factor, LayerFit* fit, bool stays_small) {
   if (at_ && at_->view.frame.scale == view_.frame.scale * factor) return;
   const View view = smaller_view(view_, factor);

@@ -5,10 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <opencv2/imgproc.hpp>
 
-#include "wheatstone/drawing/rasterise.h"
-#include "wheatstone/image/mat_opencv.h"
 #include "wheatstone/stereo/occlusion.h"
 #include "wheatstone/stereo/view_scale.h"
 #include "wheatstone/strokes/layer_order.h"
