@@ -22,9 +22,11 @@ constexpr int band_count(int height) { return (height + band_rows - 1) / band_ro
 void rasterise(const Layer& layer, ViewPosition view, const Hiding& hiding, Canvas& canvas, const Brush& brush = {},
                std::span<const std::uint8_t> wanted = {});
 
-/// The same on a canvas of which only a band at a time exists: `begin(top, canvas)` fills the rows from `top` on, and
-/// `finish(top, canvas)` takes them with the strokes. Both may be called for several bands at once.
+/// Work on the rows of a canvas from `top` on, which alone exist.
 using CanvasBandWork = std::function<void(int top, Canvas& canvas)>;
+
+/// As rasterise, band by band: `begin` fills a band of the canvas, and `finish` takes it with the strokes. Both may be
+/// called for several bands at once.
 void rasterise_bands(const Layer& layer, ViewPosition view, const Hiding& hiding, int width, int height,
                      const Brush& brush, const CanvasBandWork& begin, const CanvasBandWork& finish);
 

@@ -80,7 +80,7 @@ void ViewPainter::plan(int layer, const CarryOptions& options, TrackedLayer& tra
   LayerFit* const fit = fits.empty() ? nullptr : &fits[static_cast<std::size_t>(layer)];
   const std::size_t carried = tracked.tracks.size();
   const bool compares = options.goes_on || carried != 0;
-  const bool finest = layer + 1 == static_cast<int>(radii_px_.size());
+  const bool finest = is_finest(layer);
   // The same for all layers of a view: a canvas that stays small in one is small in the next.
   const bool is_new = motion_ == nullptr && !options.goes_on && fit == nullptr;
   const bool stays_small = is_new && needs_no_whole_canvas(layer);
@@ -122,7 +122,8 @@ void ViewPainter::plan(int layer, const CarryOptions& options, TrackedLayer& tra
     else
       std::ranges::fill(fit->drawing.differs, std::uint8_t{0});
   } else if (!finest && at_->canvas_factor > 1) {
-    at_->to_draw = {begun, at_->view.position, hiding(), cover_of_brush(layer)};
+    at_->to_draw = {std::move(begun), at_->view.position, hiding(), cover_of_brush(layer)};
+    return;
   } else if (!finest) {
     rasterise(begun, at_->view.position, hiding(), at_->canvas, cover_of_brush(layer));
   }
@@ -148,22 +149,21 @@ Layer ViewPainter::repairs() {
 
 bool ViewPainter::is_whole() const { return view_.wanted.empty(); }
 
+bool ViewPainter::is_finest(int layer) const { return layer + 1 == static_cast<int>(radii_px_.size()); }
+
 int ViewPainter::factor_for(int layer) const {
   // Places that the ground leaves bare would show between finer strokes. At the beginning of a scene all traced
   // strokes are new, so that a few less exact ones would show.
   const bool fitted = style_.marks == Marks::fitted_strokes;
   const float least_radius_px = fitted ? (layer == 0 ? 5 : 2.5f) : motion_ == nullptr ? 12 : 6;
   const auto number = static_cast<std::size_t>(layer);
-  const bool is_finest = number + 1 == radii_px_.size();
-  return is_finest ? 1 : factor_for_layer(view_, radii_px_[number], least_radius_px);
+  return is_finest(layer) ? 1 : factor_for_layer(view_, radii_px_[number], least_radius_px);
 }
 
 /// Whether a layer of new strokes needs no canvas of its own size: that is the finest layer, on which nothing is drawn,
 /// and the fitted one before it, whose strokes only the finest layer looks at.
 bool ViewPainter::needs_no_whole_canvas(int layer) const {
-  const bool last_but_one = layer + 2 == static_cast<int>(radii_px_.size());
-  return layer + 1 == static_cast<int>(radii_px_.size()) ||
-         (last_but_one && style_.marks == Marks::fitted_strokes && factor_for(layer) == 1);
+  return is_finest(layer) || (is_finest(layer + 1) && style_.marks == Marks::fitted_strokes && factor_for(layer) == 1);
 }
 
 /// `stays_small`: the canvas keeps the size that it has.

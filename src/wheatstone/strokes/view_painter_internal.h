@@ -37,6 +37,7 @@ class ViewPainter {
 
  private:
   bool is_whole() const;
+  bool is_finest(int layer) const;
   int factor_for(int layer) const;
   bool needs_no_whole_canvas(int layer) const;
   void go_to_size(int factor, LayerFit* fit, bool stays_small);
