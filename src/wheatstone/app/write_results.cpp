@@ -1,8 +1,8 @@
 #include "wheatstone/app/write_results.h"
 
 #include <fmt/format.h>
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
+#include <tbb/parallel_for_each.h>
+#include <tbb/parallel_invoke.h>
 
 #include <algorithm>
 #include <array>
@@ -90,6 +90,7 @@ std::vector<std::string> write_flat(OutputFolder& folder, const PaintingReport& 
 struct Output {
   std::string name;
   std::function<void(const std::filesystem::path&)> write;
+  bool is_plain = false;  ///< nothing is encoded
 };
 
 /// Writes all files of a result of so many pixels.
@@ -97,19 +98,19 @@ void write_all(std::span<const Output> outputs, OutputFolder& folder, std::size_
   std::mutex reporting;
   std::size_t written = 0;
   report(progress, "writing", 0);
-  // Large files are encoded in parallel blocks: all of them at once would only take more memory.
+  const auto write = [&](const Output& output) {
+    output.write(folder.file(output.name));
+    const std::scoped_lock lock(reporting);
+    report(progress, "writing", static_cast<double>(++written) / static_cast<double>(outputs.size()));
+  };
   constexpr std::size_t large_pixels = 8'000'000;
-  const std::size_t at_once = pixels < large_pixels ? 1 : outputs.size();
-  tbb::parallel_for(
-      tbb::blocked_range(std::size_t{0}, outputs.size(), at_once),
-      [&](const auto& some) {
-        for (std::size_t i = some.begin(); i < some.end(); ++i) {
-          outputs[i].write(folder.file(outputs[i].name));
-          const std::scoped_lock lock(reporting);
-          report(progress, "writing", static_cast<double>(++written) / static_cast<double>(outputs.size()));
-        }
-      },
-      tbb::simple_partitioner());
+  if (pixels < large_pixels) return tbb::parallel_for_each(outputs, write);
+  // Large files are encoded in parallel blocks: all of them at once would only take more memory.
+  const auto write_where = [&](bool is_plain) {
+    for (const Output& output : outputs)
+      if (output.is_plain == is_plain) write(output);
+  };
+  tbb::parallel_invoke([&] { write_where(true); }, [&] { write_where(false); });
 }
 
 }  // namespace
@@ -153,13 +154,13 @@ std::vector<std::string> write_results(OutputFolder& folder, const StereoPair& p
       {picture("side_by_side"), [&](const Path& path) { write_image(path, side_by_side(presented()), options.notes); }},
       {picture("anaglyph"), [&](const Path& path) { write_image(path, anaglyph(presented()), options.notes); }},
       {"disparity.png", [&](const Path& path) { write_image(path, disparity_picture(geometry.left_disparity)); }},
-      {"left_disparity.pfm", [&](const Path& path) { write_disparity(path, geometry.left_disparity); }},
+      {"left_disparity.pfm", [&](const Path& path) { write_disparity(path, geometry.left_disparity); }, true},
       {"left_disparity.png", [&](const Path& path) { write_disparity(path, geometry.left_disparity); }},
-      {"right_disparity.pfm", [&](const Path& path) { write_disparity(path, geometry.right_disparity); }},
+      {"right_disparity.pfm", [&](const Path& path) { write_disparity(path, geometry.right_disparity); }, true},
       {"left_occlusion.png", [&](const Path& path) { write_image(path, geometry.left_occlusion); }},
       {"right_occlusion.png", [&](const Path& path) { write_image(path, geometry.right_occlusion); }},
       {"painting.wst", [&](const Path& path) { write_painting(path, painting); }},
-      {"report.json", [&](const Path& path) { write_whole_file(path, report_json(told)); }},
+      {"report.json", [&](const Path& path) { write_whole_file(path, report_json(told)); }, true},
   };
   if (options.svg) {
     outputs.push_back({"left.svg", [&](const Path& path) { write_svg(path, painting, left_eye); }});

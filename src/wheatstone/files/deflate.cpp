@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <memory>
 #include <new>
 #include <string>
 
@@ -50,9 +51,13 @@ std::string zlib_stream(std::size_t parts, const PartOfBytes& part_of) {
     thread_local std::vector<std::uint8_t> room;
     room.clear();
     const std::span<const std::uint8_t> bytes = parts > 0 ? part_of(i, room) : std::span<const std::uint8_t>();
-    made[i] = {deflated_part(bytes, i + 1 == made.size()), adler32_z(1, bytes.data(), bytes.size()), bytes.size()};
+    made[i] = {deflated_part(bytes, i + 1 == made.size()), isal_adler32(1, bytes.data(), bytes.size()), bytes.size()};
   });
   std::string stream{'\x78', '\x5e'};  // a window of 32 KiB; fast
+  std::size_t stream_bytes = stream.size();
+  for (const Part& part : made) stream_bytes += part.deflated.size();
+  constexpr std::size_t checksum_bytes = 4;
+  stream.reserve(stream_bytes + checksum_bytes);
   uLong checksum = 1;
   for (const Part& part : made) {
     stream += part.deflated;
@@ -101,12 +106,30 @@ std::vector<std::uint8_t> deflated(std::span<const std::uint8_t> bytes, int leve
 }
 
 std::optional<std::vector<std::uint8_t>> inflated(std::span<const std::uint8_t> bytes, std::size_t size) {
-  constexpr std::size_t most_inflation = 1032;  // zlib cannot make more of a byte
+  constexpr std::size_t most_inflation = 1032;  // deflate cannot make more of a byte
   if (size > bytes.size() * most_inflation) return {};
   std::vector<std::uint8_t> result(size);
-  auto made = static_cast<uLongf>(size);
-  auto used = static_cast<uLong>(bytes.size());
-  if (uncompress2(result.data(), &made, bytes.data(), &used) != Z_OK || made != size || used != bytes.size()) return {};
+  std::span<const std::uint8_t> to_read = bytes;
+  std::span<std::uint8_t> to_write = result;
+  const auto state = std::make_unique<inflate_state>();
+  isal_inflate_init(state.get());
+  state->crc_flag = ISAL_ZLIB;
+  do {
+    constexpr std::size_t step = std::size_t{1} << 30;
+    const std::size_t given = std::min(to_read.size(), step), room = std::min(to_write.size(), step);
+    state->next_in = const_cast<std::uint8_t*>(to_read.data());  // the library only reads it
+    state->avail_in = static_cast<std::uint32_t>(given);
+    state->next_out = to_write.data();
+    state->avail_out = static_cast<std::uint32_t>(room);
+    if (isal_inflate(state.get()) != ISAL_DECOMP_OK) return {};
+    const std::size_t used = given - state->avail_in, made = room - state->avail_out;
+    if (used == 0 && made == 0) break;
+    to_read = to_read.subspan(used);
+    to_write = to_write.subspan(made);
+  } while (state->block_state != ISAL_BLOCK_FINISH);
+  constexpr int bits_a_byte = 8;  // whole bytes that the library took and did not read lie behind the stream
+  const bool ends_here = to_read.empty() && state->read_in_length < bits_a_byte;
+  if (state->block_state != ISAL_BLOCK_FINISH || !ends_here || !to_write.empty()) return {};
   return result;
 }
 

@@ -15,7 +15,7 @@ std::vector<std::uint8_t> bytes_of(std::size_t size) {
   return bytes;
 }
 
-std::vector<std::uint8_t> inflated(const std::string& stream, std::size_t size) {
+std::vector<std::uint8_t> inflated_by_zlib(const std::string& stream, std::size_t size) {
   std::vector<std::uint8_t> bytes(size + 1);
   auto made = static_cast<uLongf>(bytes.size());
   EXPECT_EQ(uncompress(bytes.data(), &made, reinterpret_cast<const Bytef*>(stream.data()), stream.size()), Z_OK);
@@ -26,7 +26,7 @@ std::vector<std::uint8_t> inflated(const std::string& stream, std::size_t size) 
 TEST(ZlibStream, IsReadByZlib) {
   for (const std::size_t size : {std::size_t{0}, std::size_t{1}, std::size_t{70'000}, std::size_t{3'500'001}}) {
     const std::vector<std::uint8_t> bytes = bytes_of(size);
-    EXPECT_EQ(inflated(zlib_stream(bytes), size), bytes) << size;
+    EXPECT_EQ(inflated_by_zlib(zlib_stream(bytes), size), bytes) << size;
   }
 }
 
@@ -38,7 +38,7 @@ TEST(ZlibStream, OfPartsOfAnySizeIsThatOfTheirBytes) {
     room.assign(bytes.begin() + static_cast<std::ptrdiff_t>(begin), bytes.begin() + static_cast<std::ptrdiff_t>(end));
     return std::span<const std::uint8_t>(room);
   });
-  EXPECT_EQ(inflated(stream, bytes.size()), bytes);
+  EXPECT_EQ(inflated_by_zlib(stream, bytes.size()), bytes);
 }
 
 TEST(ZlibStream, IsTheSameOnAnyNumberOfThreads) {
@@ -54,6 +54,31 @@ TEST(ZlibStream, IsSmallerThanZlibsFastest) {
   auto size = static_cast<uLongf>(fastest.size());
   ASSERT_EQ(compress2(fastest.data(), &size, bytes.data(), bytes.size(), 1), Z_OK);
   EXPECT_LT(zlib_stream(bytes).size(), size);
+}
+
+TEST(Inflated, IsWhatWasDeflatedByUsAndByZlib) {
+  for (const std::size_t size : {std::size_t{0}, std::size_t{1}, std::size_t{70'000}, std::size_t{3'500'001}}) {
+    const std::vector<std::uint8_t> bytes = bytes_of(size);
+    EXPECT_EQ(inflated(deflated(bytes), size), bytes) << size;
+    for (const int level : {0, 1}) EXPECT_EQ(inflated(deflated(bytes, level), size), bytes) << size << ' ' << level;
+  }
+}
+
+TEST(Inflated, IsNothingWhereTheStreamIsDamagedOrOfAnotherSize) {
+  const std::vector<std::uint8_t> bytes = bytes_of(4000);
+  std::vector<std::uint8_t> stream = deflated(bytes);
+  for (std::size_t size = 0; size < stream.size(); ++size)
+    EXPECT_FALSE(inflated(std::span(stream).first(size), bytes.size())) << size;
+  EXPECT_FALSE(inflated(stream, bytes.size() - 1));
+  EXPECT_FALSE(inflated(stream, bytes.size() + 1));
+  stream.push_back(0);
+  EXPECT_FALSE(inflated(stream, bytes.size()));
+  stream.pop_back();
+  for (std::size_t i = 2; i < stream.size(); ++i) {
+    std::vector<std::uint8_t> bad = stream;
+    bad[i] ^= 0x10;
+    EXPECT_FALSE(inflated(bad, bytes.size())) << i;
+  }
 }
 
 }  // namespace wheatstone::deflate_test

@@ -104,9 +104,13 @@ std::string read_whole_file(const fs::path& path, std::size_t most_bytes) {
 }
 
 void write_whole_file(const std::filesystem::path& path, std::string_view bytes) {
+  write_whole_file(path, std::span(&bytes, 1));
+}
+
+void write_whole_file(const std::filesystem::path& path, std::span<const std::string_view> parts) {
   TemporaryFile temporary(path);
   std::ofstream file(temporary.path(), std::ios::binary);
-  file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  for (const std::string_view bytes : parts) file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   file.close();
   if (!file)
     throw Error(ErrorKind::cannot_read_write,

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -23,5 +24,7 @@ std::string read_whole_file(const std::filesystem::path& path, std::size_t most_
 
 /// Writes a file under a temporary name and renames it when it is whole. Throws Error{cannot_read_write}.
 void write_whole_file(const std::filesystem::path& path, std::string_view bytes);
+/// The same of bytes that lie in parts.
+void write_whole_file(const std::filesystem::path& path, std::span<const std::string_view> parts);
 
 }  // namespace wheatstone

@@ -40,14 +40,18 @@ CheckedMatch checked(const BandMatch& match, const Level& level, std::optional<C
                                           : match.left;
   result.right = options.left_right_check ? confirmed_disparity(match.right, match.left, 1, options.check_tolerance_px)
                                           : match.right;
-  if (guess) {
-    remove_speckles(result.found, options.least_surface_px);
-  } else {
-    remove_speckles_but_holes(result.found, options.least_surface_px);
-  }
+  TrustedPlaces places;
+  tbb::parallel_invoke(
+      [&] {
+        if (guess) {
+          remove_speckles(result.found, options.least_surface_px);
+        } else {
+          remove_speckles_but_holes(result.found, options.least_surface_px);
+        }
+      },
+      [&] { places = trusted_places(level.left, match); });
   cv::Mat found = as_mat(result.found);
   result.confirmed = found == found;
-  const TrustedPlaces places = trusted_places(level.left, match);
   result.plain = places.plain;
   found.setTo(unknown, places.plain | ~places.distinct);
   if (guess) {
@@ -85,7 +89,9 @@ CheckedMatch match_coarse_to_fine(const cv::Mat& left, const cv::Mat& right, con
       band = whole_range(level, static_cast<double>(level.left.cols) / left.cols, range);
     } else {
       const Image<std::uint8_t> alike = most_alike_neighbours(levels[i + 1].left, level.left);
-      guess = {enlarged(match.left, alike), enlarged(match.found, alike), match.confirmed};
+      guess = {{}, {}, match.confirmed};
+      tbb::parallel_invoke([&] { guess->left = enlarged(match.left, alike); },
+                           [&] { guess->found = enlarged(match.found, alike); });
       match = {};
       band = band_around(guess->left);
     }

@@ -52,7 +52,7 @@ cv::Mat in_sixteenths(const Image<float>& disparity, float sign) {
 
 namespace {
 
-/// Stands for pixels whose disparity is unknown, or that are in a patch already.
+/// Stands for pixels whose disparity is unknown.
 constexpr int no_disparity = std::numeric_limits<int>::min();
 
 /// The disparities in sixteenths, so that patches do not depend on the last bits of them.
@@ -66,41 +66,70 @@ Image<int> whole_sixteenths(const Image<float>& disparity) {
   return sixteenths;
 }
 
-/// The pixels, as indices into the rows one after the other, that are connected with `first` by steps to neighbours of
-/// like disparity. They are taken out of `sixteenths`.
-void take_patch(Image<int>& sixteenths, std::size_t first, std::vector<std::pair<std::size_t, int>>& patch) {
-  constexpr int same_surface = 2 * sixteenths_a_px;
-  const auto width = static_cast<std::size_t>(sixteenths.width());
-  const std::span<int> values = sixteenths.pixels();
-  const auto take = [&](std::size_t at) { patch.emplace_back(at, std::exchange(values[at], no_disparity)); };
-  const auto step_to = [&](int from, std::size_t at) {
-    if (values[at] != no_disparity && std::abs(values[at] - from) <= same_surface) take(at);
-  };
-  patch.clear();
-  take(first);
-  for (std::size_t next = 0; next < patch.size();) {  // the patch grows
-    const auto [at, from] = patch[next++];
-    const std::size_t x = at % width;
-    if (x > 0) step_to(from, at - 1);
-    if (x + 1 < width) step_to(from, at + 1);
-    if (at >= width) step_to(from, at - width);
-    if (at + width < values.size()) step_to(from, at + width);
+/// Patches of pixels that are connected by steps to neighbours of like disparity, as trees: a root holds minus the
+/// number of pixels of its patch, another pixel the index of one nearer to its root. Indices count pixels row by row.
+class Patches {
+ public:
+  explicit Patches(const Image<int>& sixteenths)
+      : values_(sixteenths.pixels()), width_(sixteenths.width()), trees_(values_.size(), -1) {
+    constexpr int band_rows = 64;
+    const int height = sixteenths.height();
+    tbb::parallel_for(0, (height + band_rows - 1) / band_rows, [&](int band) {
+      const int first = band * band_rows;
+      for (int y = first; y < std::min(first + band_rows, height); ++y) {
+        for (int x = 1; x < width_; ++x) join_if_alike(y * width_ + x - 1, y * width_ + x);
+        if (y > first) join_to_row_above(y);
+      }
+    });
+    for (int y = band_rows; y < height; y += band_rows) join_to_row_above(y);
   }
-}
+
+  int size_of_patch(int at) const {
+    while (trees_[at] >= 0) at = trees_[at];
+    return -trees_[at];
+  }
+
+ private:
+  bool are_alike(int a, int b) const {
+    constexpr int same_surface = 2 * sixteenths_a_px;
+    return values_[a] != no_disparity && values_[b] != no_disparity &&
+           std::abs(values_[a] - values_[b]) <= same_surface;
+  }
+  int root_of(int at) {
+    while (trees_[at] >= 0) {
+      if (trees_[trees_[at]] >= 0) trees_[at] = trees_[trees_[at]];
+      at = trees_[at];
+    }
+    return at;
+  }
+  void join_if_alike(int a, int b) {
+    if (!are_alike(a, b)) return;
+    const int root = root_of(a), other = root_of(b);
+    if (root == other) return;
+    const auto [least, largest] = std::minmax(root, other);
+    trees_[least] += trees_[largest];
+    trees_[largest] = least;
+  }
+  void join_to_row_above(int y) {
+    for (int x = 0, at = y * width_; x < width_; ++x, ++at) join_if_alike(at - width_, at);
+  }
+
+  std::span<const int> values_;
+  int width_;
+  std::vector<int> trees_;
+};
 
 }  // namespace
 
 // OpenCV's filterSpeckles keeps places as 16-bit numbers: it writes beyond its memory where a side is longer.
 void remove_speckles(Image<float>& disparity, int least_surface_px) {
-  const std::span<float> values = disparity.pixels();
-  Image<int> sixteenths = whole_sixteenths(disparity);
-  std::vector<std::pair<std::size_t, int>> patch;
-  for (std::size_t first = 0; first < values.size(); ++first) {
-    if (sixteenths.pixels()[first] == no_disparity) continue;
-    take_patch(sixteenths, first, patch);
-    if (patch.size() > static_cast<std::size_t>(least_surface_px)) continue;
-    for (const auto& [at, disparity_there] : patch) values[at] = unknown;
-  }
+  const Image<int> sixteenths = whole_sixteenths(disparity);
+  const Patches patches(sixteenths);
+  tbb::parallel_for(0, disparity.height(), [&](int y) {
+    const auto row = disparity.row(y);
+    for (int x = 0; x < disparity.width(); ++x)
+      if (patches.size_of_patch(y * disparity.width() + x) <= least_surface_px) row[x] = unknown;
+  });
 }
 
 cv::Mat unknown_places(const cv::Mat& disparity) { return ~(disparity == disparity); }

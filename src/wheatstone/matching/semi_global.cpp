@@ -1,5 +1,6 @@
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
 
 #include <algorithm>
 #include <limits>
@@ -24,9 +25,12 @@ cv::Mat grey_with_border(const cv::Mat& picture) {
 }
 
 ComparedPictures compared(const cv::Mat& left, const cv::Mat& right, const SearchBand& band) {
-  ComparedPictures pictures{left, {}, grey_with_border(left), {}, false};
-  cv::flip(right, pictures.right, 1);
-  pictures.right_grey = grey_with_border(pictures.right);
+  ComparedPictures pictures{left, {}, {}, {}, false};
+  tbb::parallel_invoke([&] { pictures.left_grey = grey_with_border(left); },
+                       [&] {
+                         cv::flip(right, pictures.right, 1);
+                         pictures.right_grey = grey_with_border(pictures.right);
+                       });
   const auto first = band.first.pixels();
   pictures.one_band = std::ranges::all_of(first, [&](std::int16_t value) { return value == first.front(); });
   return pictures;

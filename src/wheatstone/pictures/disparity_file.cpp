@@ -1,6 +1,7 @@
 #include "wheatstone/pictures/disparity_file.h"
 
 #include <fmt/format.h>
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <charconv>
@@ -63,19 +64,19 @@ constexpr std::string_view scale_key = "Disparity scale", offset_key = "Disparit
 
 void write_png(const std::filesystem::path& path, ImageView<const float> disparity) {
   const Steps steps = steps_for(disparity);
-  std::vector<std::uint16_t> values;
-  for (int y = 0; y < disparity.height(); ++y) {
-    for (const float d : disparity.row(y)) {
-      // A known 0 is written as the smallest step: 0 itself means unknown.
-      const long value = std::isfinite(d) ? std::max(std::lround((d - steps.offset) * steps.scale), 1L) : 0;
-      values.push_back(static_cast<std::uint16_t>(value));
-    }
-  }
+  Image<std::uint16_t> values(disparity.width(), disparity.height());
+  tbb::parallel_for(0, disparity.height(), [&](int y) {
+    // A known 0 is written as the smallest step: 0 itself means unknown.
+    std::ranges::transform(disparity.row(y), values.row(y).begin(), [&](float d) {
+      return static_cast<std::uint16_t>(std::isfinite(d) ? std::max(std::lround((d - steps.offset) * steps.scale), 1L)
+                                                         : 0);
+    });
+  });
   StoredPicture picture{disparity.width(), disparity.height(), 1};
   picture.kind = words_kind;
   picture.put(std::string(png_text) + std::string(scale_key), fmt::format("{}", steps.scale));
   picture.put(std::string(png_text) + std::string(offset_key), fmt::format("{}", steps.offset));
-  const PixelRows rows{values.data(), words_kind, 0, picture.height, std::ptrdiff_t{2} * picture.width};
+  const PixelRows rows{values.pixels().data(), words_kind, 0, picture.height, std::ptrdiff_t{2} * picture.width};
   write_whole_file(path, encode_picture(path, picture, rows));
 }
 
@@ -136,7 +137,7 @@ Image<float> read_disparity(const std::filesystem::path& path, std::optional<flo
 
 void write_disparity(const std::filesystem::path& path, ImageView<const float> disparity) {
   const std::string kind = ending_of(path);
-  if (kind == ".pfm") return write_whole_file(path, encode_pfm(disparity));
+  if (kind == ".pfm") return write_pfm(path, disparity);
   if (kind == ".png") return write_png(path, disparity);
   if (kind == ".exr") return write_exr(path, disparity);
   throw Error(

@@ -6,8 +6,11 @@
 #include <charconv>
 #include <cmath>
 #include <cstring>
+#include <string>
+#include <vector>
 
 #include "wheatstone/error.h"
+#include "wheatstone/files/whole_file.h"
 
 namespace wheatstone {
 namespace {
@@ -84,14 +87,15 @@ Image<float> decode_pfm(std::string_view bytes, std::string_view name) {
   return image;
 }
 
-std::string encode_pfm(ImageView<const float> image) {
+void write_pfm(const std::filesystem::path& path, ImageView<const float> image) {
   const float scale = std::endian::native == std::endian::little ? -1.f : 1.f;
-  std::string bytes = fmt::format("Pf\n{} {}\n{:.1f}\n", image.width(), image.height(), scale);
+  const std::string header = fmt::format("Pf\n{} {}\n{:.1f}\n", image.width(), image.height(), scale);
+  std::vector<std::string_view> parts{header};
   for (int y = image.height() - 1; y >= 0; --y) {
     const auto row = image.row(y);
-    bytes.append(reinterpret_cast<const char*>(row.data()), row.size_bytes());
+    parts.emplace_back(reinterpret_cast<const char*>(row.data()), row.size_bytes());
   }
-  return bytes;
+  write_whole_file(path, parts);
 }
 
 }  // namespace wheatstone

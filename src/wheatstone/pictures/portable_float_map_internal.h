@@ -1,6 +1,6 @@
 #pragma once
 
-#include <string>
+#include <filesystem>
 #include <string_view>
 
 #include "wheatstone/image/image.h"
@@ -11,7 +11,7 @@ namespace wheatstone {
 /// stores last. `name` stands for the file in messages. Throws Error{bad_input}.
 Image<float> decode_pfm(std::string_view bytes, std::string_view name);
 
-/// The picture as a little-endian grey Portable Float Map.
-std::string encode_pfm(ImageView<const float> image);
+/// Writes a picture as a grey Portable Float Map of this machine's byte order. Throws Error{cannot_read_write}.
+void write_pfm(const std::filesystem::path& path, ImageView<const float> image);
 
 }  // namespace wheatstone
