@@ -50,20 +50,22 @@ CheckedMatch checked(const BandMatch& match, const Level& level, std::optional<C
         }
       },
       [&] { places = trusted_places(level.left, match); });
-  cv::Mat found = as_mat(result.found);
-  result.confirmed = found == found;
   result.plain = places.plain;
-  found.setTo(unknown, places.plain | ~places.distinct);
-  if (guess) {
-    result.left = std::move(guess->left);
-    cv::Mat left = as_mat(result.left);
-    as_mat(guess->found).copyTo(found, unknown_places(found));
+  result.confirmed.create(level.left.size(), CV_8U);
+  if (guess) result.left = std::move(guess->left);
+  cv::Mat confirmed_before;
+  if (guess) cv::resize(guess->confirmed, confirmed_before, level.left.size(), 0, 0, cv::INTER_NEAREST);
+  for_each_band(level.left.rows, [&](const cv::Range& rows) {
+    cv::Mat found = as_mat(result.found).rowRange(rows), confirmed = result.confirmed.rowRange(rows);
+    cv::compare(found, found, confirmed, cv::CMP_EQ);
+    found.setTo(unknown, places.plain.rowRange(rows) | ~places.distinct.rowRange(rows));
+    if (!guess) return;
+    as_mat(guess->found).rowRange(rows).copyTo(found, unknown_places(found));
+    cv::Mat left = as_mat(result.left).rowRange(rows);
     found.copyTo(left, found == found);
-    cv::Mat confirmed_before;
-    cv::resize(guess->confirmed, confirmed_before, found.size(), 0, 0, cv::INTER_NEAREST);
-    result.confirmed |= confirmed_before;
-    return result;
-  }
+    confirmed |= confirmed_before.rowRange(rows);
+  });
+  if (guess) return result;
   // Nothing but plain places is no reason to refuse: whatever was found there is as good as anything.
   if (known_share(result.found) == 0) result.found = match.left;
   result.left = result.found;

@@ -72,16 +72,13 @@ class Patches {
  public:
   explicit Patches(const Image<int>& sixteenths)
       : values_(sixteenths.pixels()), width_(sixteenths.width()), trees_(values_.size(), -1) {
-    constexpr int band_rows = 64;
-    const int height = sixteenths.height();
-    tbb::parallel_for(0, (height + band_rows - 1) / band_rows, [&](int band) {
-      const int first = band * band_rows;
-      for (int y = first; y < std::min(first + band_rows, height); ++y) {
+    for_each_band(sixteenths.height(), [&](const cv::Range& rows) {
+      for (int y = rows.start; y < rows.end; ++y) {
         for (int x = 1; x < width_; ++x) join_if_alike(y * width_ + x - 1, y * width_ + x);
-        if (y > first) join_to_row_above(y);
+        if (y > rows.start) join_to_row_above(y);
       }
     });
-    for (int y = band_rows; y < height; y += band_rows) join_to_row_above(y);
+    for (int y = rows_a_band; y < sixteenths.height(); y += rows_a_band) join_to_row_above(y);
   }
 
   int size_of_patch(int at) const {

@@ -172,16 +172,15 @@ Image<std::uint8_t> confidence_of(const CheckedMatch& match) {
 
 /// The median of 5×5 pixels, on all processors.
 void take_median(Image<float>& disparity) {
-  constexpr int side_px = 5, margin = side_px / 2, band_rows = 64;
+  constexpr int side_px = 5, margin = side_px / 2;
   const Image<float> before = disparity;
   const cv::Mat from = as_mat(before);
   cv::Mat to = as_mat(disparity);
-  tbb::parallel_for(0, (from.rows + band_rows - 1) / band_rows, [&](int band) {
-    const int begin = band * band_rows, end = std::min(begin + band_rows, from.rows);
-    const int top = std::max(begin - margin, 0), bottom = std::min(end + margin, from.rows);
+  for_each_band(from.rows, [&](const cv::Range& rows) {
+    const int top = std::max(rows.start - margin, 0), bottom = std::min(rows.end + margin, from.rows);
     cv::Mat median;
     cv::medianBlur(from.rowRange(top, bottom), median, side_px);
-    median.rowRange(begin - top, end - top).copyTo(to.rowRange(begin, end));
+    median.rowRange(rows.start - top, rows.end - top).copyTo(to.rowRange(rows));
   });
 }
 

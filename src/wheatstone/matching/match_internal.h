@@ -1,5 +1,8 @@
 #pragma once
 
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
 #include <limits>
 #include <opencv2/core.hpp>
 #include <optional>
@@ -14,6 +17,16 @@ inline constexpr int sixteenths_a_px = 16;
 
 /// Disparity of a pixel of which nothing is known.
 inline constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
+
+inline constexpr int rows_a_band = 64;
+
+/// Calls `work` with the rows of every band of a picture, on all processors. OpenCV's filters of a band read the rows
+/// beside it, as long as it is a part of the whole picture.
+template <class Work>
+void for_each_band(int rows, const Work& work) {
+  tbb::parallel_for(0, (rows + rows_a_band - 1) / rows_a_band,
+                    [&](int band) { work(cv::Range(band * rows_a_band, std::min((band + 1) * rows_a_band, rows))); });
+}
 
 /// Disparity of the first of two 8-bit RGB pictures, in pixels, NaN where nothing was found. One way, unchecked.
 Image<float> match_with_opencv(const cv::Mat& own, const cv::Mat& other, const DisparityRange& range,

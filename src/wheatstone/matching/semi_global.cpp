@@ -24,24 +24,23 @@ cv::Mat grey_with_border(const cv::Mat& picture) {
   return grey;
 }
 
-ComparedPictures compared(const cv::Mat& left, const cv::Mat& right, const SearchBand& band) {
+}  // namespace
+
+BandMatch match_semi_global(const cv::Mat& left, const cv::Mat& right, const SearchBand& band) {
   ComparedPictures pictures{left, {}, {}, {}, false};
+  BandMatch result;
   tbb::parallel_invoke([&] { pictures.left_grey = grey_with_border(left); },
                        [&] {
                          cv::flip(right, pictures.right, 1);
                          pictures.right_grey = grey_with_border(pictures.right);
+                       },
+                       [&] {
+                         result = {
+                             Image<float>(left.cols, left.rows, unknown), Image<float>(left.cols, left.rows, unknown),
+                             Image<std::uint8_t>(left.cols, left.rows), Image<std::uint8_t>(left.cols, left.rows)};
                        });
   const auto first = band.first.pixels();
   pictures.one_band = std::ranges::all_of(first, [&](std::int16_t value) { return value == first.front(); });
-  return pictures;
-}
-
-}  // namespace
-
-BandMatch match_semi_global(const cv::Mat& left, const cv::Mat& right, const SearchBand& band) {
-  const ComparedPictures pictures = compared(left, right, band);
-  BandMatch result{Image<float>(left.cols, left.rows, unknown), Image<float>(left.cols, left.rows, unknown),
-                   Image<std::uint8_t>(left.cols, left.rows), Image<std::uint8_t>(left.cols, left.rows)};
   const int strips = (left.rows + strip_rows - 1) / strip_rows;
   tbb::enumerable_thread_specific<StripMemory> memory;
   tbb::parallel_for(0, strips, [&](int i) {

@@ -1,13 +1,11 @@
 #include "wheatstone/matching/trusted_places_internal.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
 #include "wheatstone/image/mat_opencv.h"
+#include "wheatstone/matching/match_internal.h"
 
 namespace wheatstone {
 namespace {
@@ -56,16 +54,12 @@ LocalEvidence local_evidence(const cv::Mat& picture, const BandMatch& match) {
   const cv::Mat own = as_mat(match.own_cost), mean = as_mat(match.mean_cost);
   LocalEvidence evidence{cv::Mat(picture.size(), CV_32F), cv::Mat(picture.size(), CV_8U),
                          cv::Mat(picture.size(), CV_8U)};
-  constexpr int band_rows = 64;
-  tbb::parallel_for(tbb::blocked_range<int>(0, picture.rows, band_rows), [&](const tbb::blocked_range<int>& range) {
-    for (int y = range.begin(); y < range.end(); y += band_rows) {
-      const cv::Range rows(y, std::min(y + band_rows, range.end()));
-      find_deviation(grey.rowRange(rows), evidence.deviation.rowRange(rows));
-      const cv::Mat share = cost_share(own.rowRange(rows), mean.rowRange(rows));
-      cv::Mat distinct = evidence.distinct.rowRange(rows), no_better = evidence.no_better.rowRange(rows);
-      cv::compare(share, clearly_better, distinct, cv::CMP_LT);
-      cv::compare(share, hardly_better, no_better, cv::CMP_GT);
-    }
+  for_each_band(picture.rows, [&](const cv::Range& rows) {
+    find_deviation(grey.rowRange(rows), evidence.deviation.rowRange(rows));
+    const cv::Mat share = cost_share(own.rowRange(rows), mean.rowRange(rows));
+    cv::Mat distinct = evidence.distinct.rowRange(rows), no_better = evidence.no_better.rowRange(rows);
+    cv::compare(share, clearly_better, distinct, cv::CMP_LT);
+    cv::compare(share, hardly_better, no_better, cv::CMP_GT);
   });
   return evidence;
 }
