@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <exception>
@@ -112,8 +113,9 @@ std::uint64_t sum_of(std::span<const RoundShare> round, std::uint64_t RoundShare
   return sum;
 }
 
-/// Calls `visit` with every chunk of the file that this rank reads, and with what each rank has in this round. All
-/// ranks take part in every round, the last time perhaps with nothing. Gives the counts of all ranks.
+/// Calls `visit` with every chunk of the file that this rank reads, with what each rank has in this round, and with the
+/// number of particles in the file, if it is known. All ranks take part in every round, the last time perhaps with
+/// nothing. Gives the counts of all ranks.
 template <class Visit>
 SelectionCounts for_each_chunk(const std::filesystem::path& file, const RenderParticlesOptions& options,
                                const std::string& step, const Progress& progress, Visit visit) {
@@ -138,7 +140,7 @@ SelectionCounts for_each_chunk(const std::filesystem::path& file, const RenderPa
     const std::uint64_t read_by_all = sum_of(round, &RoundShare::read);
     if (read_by_all == 0) break;
     done += read_by_all;
-    if (sum_of(round, &RoundShare::kept) > 0) visit(chunk, std::span<const RoundShare>(round));
+    if (sum_of(round, &RoundShare::kept) > 0) visit(chunk, std::span<const RoundShare>(round), expected);
     if (expected) report(progress, step, static_cast<double>(done) / static_cast<double>(*expected));
   }
   SelectionCounts all;
@@ -207,7 +209,7 @@ SurveyedParticles survey(const std::filesystem::path& file, const RenderParticle
   std::uint64_t bytes = 0, before = 0;  // of all ranks
   double mass = 0;
   std::shared_ptr<DensityGrid> grid;
-  const auto look_at = [&](Cloud& chunk, std::span<const RoundShare> round) {
+  const auto look_at = [&](Cloud& chunk, std::span<const RoundShare> round, std::optional<std::uint64_t> in_file) {
     CloudStatistics& statistics = surveyed.statistics;
     if (before == 0) {
       // The empty chunk of a rank without particles in this round does not tell whether a density is lacking.
@@ -222,7 +224,10 @@ SurveyedParticles survey(const std::filesystem::path& file, const RenderParticle
     // Sums depend on their order: chunk by chunk, as one rank would.
     for (const double of_chunk : ranks.from_all(statistics.mass)) mass += of_chunk;
     for (const std::uint64_t of_chunk : ranks.from_all(std::uint64_t{bytes_of(chunk)})) bytes += of_chunk;
-    if (surveyed.all_kept && bytes > most_bytes_kept) {
+    // To keep a part in vain would take longer than to read it again: fresh memory is slow to get.
+    const bool all_chosen = sum_of(round, &RoundShare::kept) == sum_of(round, &RoundShare::read);
+    const std::uint64_t expected_bytes = all_chosen && in_file ? bytes / before * *in_file : bytes;
+    if (surveyed.all_kept && std::max(bytes, expected_bytes) > most_bytes_kept) {
       surveyed.all_kept = false;
       surveyed.kept.clear();
     }
@@ -250,10 +255,11 @@ Chunks chunks_from(const SurveyedParticles& surveyed, const std::filesystem::pat
       for (const Cloud& chunk : surveyed.kept) visit(chunk);
     };
   return [&](const std::function<void(const Cloud&)>& visit) {
-    for_each_chunk(file, options, "drawing", progress, [&](Cloud& chunk, std::span<const RoundShare> /*round*/) {
-      if (surveyed.density == DensitySource::grid) surveyed.statistics.grid->put_densities(chunk);
-      visit(chunk);
-    });
+    for_each_chunk(file, options, "drawing", progress,
+                   [&](Cloud& chunk, std::span<const RoundShare> /*round*/, std::optional<std::uint64_t> /*in_file*/) {
+                     if (surveyed.density == DensitySource::grid) surveyed.statistics.grid->put_densities(chunk);
+                     visit(chunk);
+                   });
   };
 }
 

@@ -114,10 +114,10 @@ GatheredLight::GatheredLight(const SplatOrders& orders, const Window& window, De
   for (const SplatOrder& order : orders) {
     const int count = targets > 0 ? targets : order.parts;
     targets_.push_back(count);
-    std::vector<LightBand>& light = light_.emplace_back();
-    for (int b = 0; b < order.bands; ++b)
-      for (int target = 0; target < count; ++target)
-        light.push_back(order.is_mine(b) ? dark_band(order, window, kind, target) : LightBand());
+    std::vector<LightBand>& light = light_.emplace_back(static_cast<std::size_t>(order.bands) * count);
+    tbb::parallel_for(0, static_cast<int>(light.size()), [&](int i) {
+      if (order.is_mine(i / count)) light[i] = dark_band(order, window, kind, i % count);
+    });
   }
 }
 

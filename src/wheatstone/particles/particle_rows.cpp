@@ -144,7 +144,7 @@ struct RowsInTurn {
   std::string path;
   std::vector<std::string> fields;
   ParticleRows rows = {};  ///< those that were read but not given yet; empty ones have memory
-  Cloud used = {};         ///< given back, and empty but for its memory
+  Cloud used = {};         ///< given back, and empty but for its memory and its old positions
 
   void read_rows(std::size_t most) {
     rows.others = std::exchange(used, {});
@@ -171,7 +171,9 @@ struct RowsInTurn {
   }
 
   void reuse(Cloud cloud) {
-    std::apply([](auto&... column) { (column.clear(), ...); }, columns_of(cloud));
+    // Positions are overwritten: those that keep their length need not be filled with zeros first.
+    std::apply([](auto& /*x*/, auto& /*y*/, auto& /*z*/, auto&... column) { (column.clear(), ...); },
+               columns_of(cloud));
     cloud.farthest = cloud.box_size = 0;
     used = std::move(cloud);
   }

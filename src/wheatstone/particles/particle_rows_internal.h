@@ -18,7 +18,7 @@ struct ParticleRows {
   /// where the file has no more, in single precision.
   std::vector<double> points;
   std::vector<float> single_points;
-  Cloud others;                       ///< has no positions
+  Cloud others;                       ///< its positions mean nothing
   std::vector<QuantityColumn> named;  ///< of the condition's names (CloudChoice::where); empty where the file has none
 
   std::size_t size() const { return x.size() + (points.size() + single_points.size()) / 3; }
