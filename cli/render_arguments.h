@@ -78,9 +78,6 @@ RenderParticlesOptions render_options_from(const RenderArguments& arguments);
 /// Throws Error{wrong_usage} where --quilt has not a place for each of so many views.
 void check_quilt(const QuiltLayout& layout, int views);
 
-/// The name of a way of rendering.
-std::string name_of(Method method);
-
 /// The options of `render` that other programs have: those of its views; all but those of output files, films and
 /// streams.
 Rows call_rows(RenderArguments& arguments);

@@ -17,10 +17,10 @@
 namespace wheatstone::cli {
 namespace {
 
-constexpr std::array<Choice<Method>, 4> methods{{{"auto", Method::automatic},
-                                                 {"exact", Method::exact},
-                                                 {"incremental", Method::incremental},
-                                                 {"layered", Method::layered}}};
+constexpr std::array<Choice<Method>, 4> methods{{{name_of(Method::automatic), Method::automatic},
+                                                 {name_of(Method::exact), Method::exact},
+                                                 {name_of(Method::incremental), Method::incremental},
+                                                 {name_of(Method::layered), Method::layered}}};
 constexpr std::array<Choice<SliceFilter>, 3> filters{
     {{"nearest", SliceFilter::nearest}, {"linear", SliceFilter::linear}, {"centroid", SliceFilter::centroid}}};
 constexpr std::array<Choice<Look>, 2> looks{{{"mass", Look::mass}, {"thesis", Look::thesis}}};
@@ -456,10 +456,6 @@ Rows render_rows(RenderArguments& a) {
   return join({basic, particle_rows(a), model_rows(a),
                under("Appearance", join({look_rows(a), colour_rows(a), light_rows(a)})), method_rows(a), view_rows(a),
                film_rows(a)});
-}
-
-std::string name_of(Method method) {
-  return std::string(std::ranges::find(methods, method, &Choice<Method>::value)->name);
 }
 
 }  // namespace wheatstone::cli

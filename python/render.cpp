@@ -158,7 +158,7 @@ py::tuple views_and_facts(RenderedParticles made) {
   py::dict facts;
   facts["format"] = made.format;
   facts["particles"] = made.particles;
-  facts["method"] = cli::name_of(made.rendered.method);
+  facts["method"] = std::string(name_of(made.rendered.method));
   facts["least"] = made.least;
   facts["most"] = made.most;
   facts["quantity"] = made.units.name;

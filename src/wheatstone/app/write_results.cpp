@@ -23,6 +23,7 @@
 #include "wheatstone/painting/two_eyes.h"
 #include "wheatstone/pictures/disparity_file.h"
 #include "wheatstone/pictures/write_image.h"
+#include "wheatstone/stereo/picture_sizes.h"
 
 namespace wheatstone {
 
@@ -93,8 +94,8 @@ struct Output {
   bool is_plain = false;  ///< nothing is encoded
 };
 
-/// Writes all files of a result of so many pixels.
-void write_all(std::span<const Output> outputs, OutputFolder& folder, std::size_t pixels, const Progress& progress) {
+/// Writes all files of a result whose pictures have this size.
+void write_all(std::span<const Output> outputs, OutputFolder& folder, PictureSize size, const Progress& progress) {
   std::mutex reporting;
   std::size_t written = 0;
   report(progress, "writing", 0);
@@ -103,8 +104,7 @@ void write_all(std::span<const Output> outputs, OutputFolder& folder, std::size_
     const std::scoped_lock lock(reporting);
     report(progress, "writing", static_cast<double>(++written) / static_cast<double>(outputs.size()));
   };
-  constexpr std::size_t large_pixels = 8'000'000;
-  if (pixels < large_pixels) return tbb::parallel_for_each(outputs, write);
+  if (!is_large(size)) return tbb::parallel_for_each(outputs, write);
   // Large files are encoded in parallel blocks: all of them at once would only take more memory.
   const auto write_where = [&](bool is_plain) {
     for (const Output& output : outputs)
@@ -178,7 +178,7 @@ std::vector<std::string> write_results(OutputFolder& folder, const StereoPair& p
                        }});
   }
 
-  write_all(outputs, folder, pictures.left.pixels().size(), progress);
+  write_all(outputs, folder, {pictures.left.width(), pictures.left.height()}, progress);
   folder.commit();
   std::vector<std::string> names;
   for (const Output& output : outputs) names.push_back(output.name);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "wheatstone/curves/edge_chains_internal.h"
+#include "wheatstone/image/colour.h"
 #include "wheatstone/motion/steady_picture.h"
 
 namespace wheatstone {
@@ -90,7 +91,7 @@ class SideMaker {
       const PlanePoint p = beside(station, of_side, offset_px);
       return sample(view_.colour, p.x, p.y);
     };
-    const auto light = [](const SampledColour& c) { return 0.299f * c.r + 0.587f * c.g + 0.114f * c.b; };
+    const auto light = [](const SampledColour& c) { return luma_of(c.r, c.g, c.b); };
     const float outermost = disparity_at(beside(station, side, colour_px));
     SampledColour colour = at(side, first_px);
     const bool rises = light(colour) > light(at(1 - side, first_px));

@@ -22,8 +22,7 @@ struct Recipe {
   float red_gamma = 1;  ///< of the result's red
 };
 
-// Luma of encoded values (ITU-R BT.601), as ffmpeg has it.
-constexpr std::array<float, 3> grey{0.299f, 0.587f, 0.114f};
+constexpr std::array<float, 3> grey = luma_shares;  // of encoded values, as ffmpeg has it
 constexpr std::array<float, 3> none{};
 constexpr std::array<float, 3> red{1, 0, 0}, green{0, 1, 0}, blue{0, 0, 1};
 

@@ -13,6 +13,9 @@ std::size_t utf8_character_bytes(std::string_view text);
 /// Whether all of the text is UTF-8.
 bool is_utf8(std::string_view text);
 
+/// The text with small letters in place of capitals (ASCII).
+std::string lower_case(std::string text);
+
 /// Text that HTML shows as it is, between tags and in quoted attributes. Always UTF-8: what is not becomes U+FFFD.
 std::string html_text(std::string_view text);
 

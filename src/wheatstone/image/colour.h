@@ -25,6 +25,15 @@ std::uint8_t srgb_from_linear(float linear);
 /// The same for a row; both spans are equally long.
 void srgb_from_linear(std::span<const float> linear, std::span<std::uint8_t> srgb);
 
+/// How much each channel of sRGB counts in the luma of a colour (ITU-R BT.601).
+inline constexpr std::array<float, 3> luma_shares{0.299f, 0.587f, 0.114f};
+
+/// The luma of an sRGB colour, in the unit of its channels.
+inline float luma_of(float red, float green, float blue) {
+  return luma_shares[0] * red + luma_shares[1] * green + luma_shares[2] * blue;
+}
+inline float luma_of(Rgb8 colour) { return luma_of(colour.r, colour.g, colour.b); }
+
 /// Lightness and two opponent colours in which equal steps look equal (Ottosson 2020, "A perceptual color space for
 /// image processing"). White has the lightness 1; a distance of 0.02 is just noticeable (CSS Color 4).
 struct Oklab {

@@ -8,6 +8,7 @@
 #include <limits>
 #include <vector>
 
+#include "wheatstone/image/colour.h"
 #include "wheatstone/matching/match.h"
 #include "wheatstone/random.h"
 #include "wheatstone/stereo/picture_sizes.h"
@@ -15,12 +16,11 @@
 namespace wheatstone {
 namespace {
 
-/// The luma (Rec. 601) of every pixel, 0..255.
+/// The luma of every pixel, 0..255.
 Image<float> luma_of(ImageView<const Rgb8> picture) {
   Image<float> luma(picture.width(), picture.height());
   tbb::parallel_for(0, picture.height(), [&](int y) {
-    std::ranges::transform(picture.row(y), luma.row(y).begin(),
-                           [](Rgb8 colour) { return 0.299f * colour.r + 0.587f * colour.g + 0.114f * colour.b; });
+    std::ranges::transform(picture.row(y), luma.row(y).begin(), [](Rgb8 colour) { return luma_of(colour); });
   });
   return luma;
 }

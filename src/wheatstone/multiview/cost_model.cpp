@@ -39,15 +39,12 @@ MethodChoice choose_method(const Workload& workload) {
   // Views that share the splats are faster than each on its own, and read the particles once.
   MethodChoice choice;
   if (workload.views > 1) choice.method = costs.layered < costs.incremental ? Method::layered : Method::incremental;
-  const auto* const name = choice.method == Method::exact         ? "exact"
-                           : choice.method == Method::incremental ? "incremental"
-                                                                  : "layered";
   choice.reason = fmt::format(
       "{}: for {} particles of about {:.0f} pixels in {} views of {} pixels with {} planes, estimated seconds of one "
       "thread "
       "are exact {:.3f}, incremental {:.3f}, layered {:.3f}",
-      name, workload.particles, workload.splat_px, workload.views, workload.pixels, workload.planes, costs.exact,
-      costs.incremental, costs.layered);
+      name_of(choice.method), workload.particles, workload.splat_px, workload.views, workload.pixels, workload.planes,
+      costs.exact, costs.incremental, costs.layered);
   return choice;
 }
 
@@ -72,12 +69,12 @@ Costs estimate_gpu_costs(const Workload& workload) {
 
 MethodChoice choose_gpu_method(const Workload& workload) {
   const Costs costs = estimate_gpu_costs(workload);
-  const bool layered = costs.layered < costs.incremental;
-  return {.method = layered ? Method::layered : Method::incremental,
+  const Method method = costs.layered < costs.incremental ? Method::layered : Method::incremental;
+  return {.method = method,
           .reason = fmt::format("on a graphics processor, {}: for {} particles in {} views with {} planes, layered is "
                                 "estimated to take {:.2f} of the time of incremental",
-                                layered ? "layered" : "incremental", workload.particles, workload.views,
-                                workload.planes, costs.layered / costs.incremental)};
+                                name_of(method), workload.particles, workload.views, workload.planes,
+                                costs.layered / costs.incremental)};
 }
 
 }  // namespace wheatstone

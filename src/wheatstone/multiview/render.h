@@ -1,8 +1,11 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <limits>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "wheatstone/depth/rig.h"
@@ -25,6 +28,12 @@ enum class Method {
   incremental,  ///< projected and lit once, moved for each view (IFA; Hassaine 2010, ch. 4)
   layered,      ///< cut into depth planes that are moved (MLR; ch. 5)
 };
+
+/// As users write it.
+constexpr std::string_view name_of(Method method) {
+  constexpr std::array<std::string_view, 4> names{"auto", "exact", "incremental", "layered"};
+  return names[static_cast<std::size_t>(method)];
+}
 
 /// How depth planes are filled and read.
 enum class SliceFilter {

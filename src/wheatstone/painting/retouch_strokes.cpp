@@ -6,6 +6,8 @@
 #include <limits>
 #include <vector>
 
+#include "wheatstone/image/colour.h"
+
 namespace wheatstone {
 namespace {
 
@@ -100,12 +102,6 @@ void erase(Touches hand, ViewPosition view, std::vector<Layer>& layers) {
   }
 }
 
-/// Rec. 601.
-float luminance(Rgb8 colour) {
-  return 0.299f * static_cast<float>(colour.r) + 0.587f * static_cast<float>(colour.g) +
-         0.114f * static_cast<float>(colour.b);
-}
-
 void recolour(Touches hand, ViewPosition view, std::vector<Layer>& layers) {
   std::vector<Stroke*> held;
   double sum = 0;
@@ -113,12 +109,12 @@ void recolour(Touches hand, ViewPosition view, std::vector<Layer>& layers) {
     for (Stroke& stroke : layer.strokes) {
       if (!is_held(hand, layer, stroke, view)) continue;
       held.push_back(&stroke);
-      sum += luminance(stroke.colour);
+      sum += luma_of(stroke.colour);
     }
   }
   const auto mean = static_cast<float>(sum / static_cast<double>(std::max<std::size_t>(held.size(), 1)));
   for (Stroke* const stroke : held) {
-    const float brighter = luminance(stroke->colour) - mean;
+    const float brighter = luma_of(stroke->colour) - mean;
     const auto level = [&](std::uint8_t of) {
       return static_cast<std::uint8_t>(std::clamp(static_cast<float>(of) + brighter, 0.f, 255.f) + 0.5f);
     };

@@ -14,6 +14,7 @@
 #include "wheatstone/depth/warp_row.h"
 #include "wheatstone/stereo/geometry_from_disparity.h"
 #include "wheatstone/stereo/occlusion.h"
+#include "wheatstone/stereo/picture_sizes.h"
 #include "wheatstone/stereo/view_scale.h"
 
 namespace wheatstone {
@@ -26,17 +27,11 @@ int scale_for(int width) {
   return width < halved_px ? 1 : width < quartered_px ? 2 : 4;
 }
 
-/// Beyond this, what few views need would take too much memory.
-bool is_large(ImageView<const Rgb8> photograph) {
-  constexpr double large_px = 8e6;
-  return static_cast<double>(photograph.width()) * photograph.height() > large_px;
-}
-
 /// The outermost of the wanted views, as far as they are beside the eyes, and views halfway there.
 std::vector<ViewPosition> positions_beside_eyes(ImageView<const Rgb8> photograph, ViewRange wanted) {
   std::vector<float> shares{1};
   // The outermost view may hide parts that a view halfway uncovers.
-  if (!is_large(photograph)) shares.push_back(0.5f);
+  if (!is_large({photograph.width(), photograph.height()})) shares.push_back(0.5f);
   std::vector<ViewPosition> positions;
   for (const float share : shares) {
     for (const ViewPosition outermost : {wanted.first, wanted.last}) {
@@ -182,7 +177,7 @@ std::vector<View> make_still_scene(const StereoPairView& photographs, const Ster
   // Between two near things the eyes see different parts of what is behind, and views between them see the rest. What
   // the eyes need stands before the outer views, whose number depends on what is wanted.
   std::vector<ViewPosition> positions;
-  if (!is_large(photographs.left)) positions.push_back(central_view);
+  if (!is_large({photographs.left.width(), photographs.left.height()})) positions.push_back(central_view);
   std::ranges::copy(positions_beside_eyes(photographs.left, wanted), std::back_inserter(positions));
   const std::vector<View> outer = make_views_at(positions, scene, depth_ends(geometry.left_disparity).middle_px());
   scene.insert(scene.end(), outer.begin(), outer.end());

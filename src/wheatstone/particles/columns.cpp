@@ -2,13 +2,13 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <initializer_list>
 #include <span>
 
 #include "wheatstone/error.h"
+#include "wheatstone/files/text_encoding.h"
 #include "wheatstone/particles/columns_internal.h"
 
 namespace wheatstone {
@@ -50,11 +50,6 @@ void take_component_of(std::size_t width, int component, std::vector<Number>& va
 }
 
 }  // namespace
-
-std::string lower_case(std::string name) {
-  std::ranges::transform(name, name.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return name;
-}
 
 std::vector<std::string_view> fields_of(std::string_view line) {
   constexpr std::string_view between = " \t,;\r";

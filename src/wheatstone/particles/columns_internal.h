@@ -49,9 +49,6 @@ void check_component(std::size_t width, const QuantityName& name, const std::str
 void take_component(std::size_t width, int component, std::vector<float>& values);
 void take_component(std::size_t width, int component, std::vector<double>& values);
 
-/// A name in small letters.
-std::string lower_case(std::string name);
-
 /// A field as a number, whose exponent may be Fortran's ("1.5D3"). Nothing where it is none, or not only one. What is
 /// too small for double precision is 0, what is too large is infinite.
 std::optional<double> parse_number(std::string_view field);

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "wheatstone/error.h"
+#include "wheatstone/files/text_encoding.h"
 #include "wheatstone/particles/columns_internal.h"
 #include "wheatstone/particles/formats_internal.h"
 #include "wheatstone/particles/gadget_blocks_internal.h"

@@ -1,6 +1,7 @@
 // What the files of GADGET's own binary snapshots hold, formats 1 and 2: Fortran records, each between two markers that
 // say its length.
 
+#include "wheatstone/files/text_encoding.h"
 #include "wheatstone/particles/gadget_blocks_internal.h"
 
 #include <fmt/format.h>

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "wheatstone/error.h"
+#include "wheatstone/files/text_encoding.h"
 #include "wheatstone/particles/columns_internal.h"
 #include "wheatstone/particles/gas_temperature_internal.h"
 #include "wheatstone/particles/hdf5_internal.h"

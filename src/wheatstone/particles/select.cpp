@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "wheatstone/error.h"
+#include "wheatstone/files/text_encoding.h"
 #include "wheatstone/particles/all_of_column.h"
 #include "wheatstone/particles/columns_internal.h"
 

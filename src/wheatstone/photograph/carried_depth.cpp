@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "wheatstone/error.h"
+#include "wheatstone/files/text_encoding.h"
 #include "wheatstone/photograph/xmp_internal.h"
 #include "wheatstone/pictures/disparity_file.h"
 #include "wheatstone/pictures/heif_pictures.h"
@@ -78,8 +79,7 @@ bool is_depth_of_left_half(const Image<Rgb8>& both) {
 }
 
 bool is_named_so(const fs::path& path) {
-  std::string stem = path.stem().string();
-  std::ranges::transform(stem, stem.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string stem = lower_case(path.stem().string());
   return stem == "rgbd" ||
          (stem.ends_with("rgbd") && std::isalnum(static_cast<unsigned char>(stem[stem.size() - 5])) == 0);
 }

@@ -41,6 +41,15 @@ std::vector<JpegSegment> jpeg_segments(std::string_view bytes) {
   return segments;
 }
 
+std::size_t end_of_first_segments(std::string_view jpeg) {
+  std::size_t end = 2;
+  for (const JpegSegment& segment : jpeg_segments(jpeg)) {
+    if (segment.marker != app0 && segment.marker != app1) break;
+    end = segment.begin + 4 + segment.data.size();
+  }
+  return end;
+}
+
 std::optional<JpegSize> jpeg_size(std::string_view bytes) {
   for (const JpegSegment& segment : jpeg_segments(bytes))
     if (is_frame_header(segment.marker) && segment.data.size() >= 5)

@@ -1,10 +1,9 @@
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "wheatstone/error.h"
 #include "wheatstone/photograph/jpeg_segments_internal.h"
 #include "wheatstone/photograph/multi_picture_internal.h"
+#include "wheatstone/pictures/jpeg.h"
 
 namespace wheatstone {
 namespace {
@@ -160,26 +159,12 @@ void put_attributes(std::string& bytes, std::uint32_t number, bool with_version)
   put(bytes, 0, 4);
 }
 
-std::string segment_of(const std::string& tiff) {
-  std::string segment("\xFF\xE2", 2);
-  put(segment, static_cast<std::uint32_t>(2 + signature.size() + tiff.size()), 2);
-  return segment + std::string(signature) + tiff;
-}
+std::string segment_of(const std::string& tiff) { return jpeg_segment(app2, std::string(signature) + tiff); }
 
 std::string big_endian_header() {
   std::string tiff("MM\0\x2A", 4);
   put(tiff, header_size, 4);
   return tiff;
-}
-
-/// The index stands behind the segments of JFIF and Exif, which must come first.
-std::size_t place_of_index(const std::string& jpeg) {
-  std::size_t place = 2;
-  for (const JpegSegment& segment : jpeg_segments(jpeg)) {
-    if (segment.marker != app0 && segment.marker != app1) break;
-    place = segment.begin + 4 + segment.data.size();
-  }
-  return place;
 }
 
 std::string index_tiff(std::span<const MultiPictureEntry> entries, std::size_t index_begin) {
@@ -206,7 +191,7 @@ std::string index_tiff(std::span<const MultiPictureEntry> entries, std::size_t i
 }  // namespace
 
 std::string join_multi_pictures(std::span<const std::string> jpegs) {
-  const std::size_t place = place_of_index(jpegs.front());
+  const std::size_t place = end_of_first_segments(jpegs.front());
   const std::size_t index_begin = place + 4 + signature.size();
   std::vector<MultiPictureEntry> entries(jpegs.size());
   entries[0].length = jpegs[0].size() + segment_of(index_tiff(entries, index_begin)).size();
@@ -215,7 +200,7 @@ std::string join_multi_pictures(std::span<const std::string> jpegs) {
     std::string tiff = big_endian_header();
     put_attributes(tiff, static_cast<std::uint32_t>(i + 1), true);
     std::string jpeg = jpegs[i];
-    jpeg.insert(place_of_index(jpeg), segment_of(tiff));
+    jpeg.insert(end_of_first_segments(jpeg), segment_of(tiff));
     entries[i].begin = entries[0].length + others.size();
     entries[i].length = jpeg.size();
     others += jpeg;

@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <map>
 #include <set>
 #include <string_view>
 
+#include "wheatstone/files/text_encoding.h"
 #include "wheatstone/photograph/find_layout.h"
 
 namespace wheatstone {
@@ -17,11 +17,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view separators = "_-. ";
-
-std::string in_small_letters(std::string text) {
-  std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
 
 struct EyeWord {
   std::string_view word;
@@ -44,7 +39,7 @@ std::string joined_path(const fs::path& folder, const std::string& name) {
 }
 
 std::optional<EyeName> eye_by_name(const fs::path& folder, const std::string& name) {
-  const std::string small = in_small_letters(name);
+  const std::string small = lower_case(name);
   for (const auto& [word, is_left] : eye_words) {
     if (!small.ends_with(word)) continue;
     const bool is_long = word.size() > 1;
@@ -76,7 +71,7 @@ struct EyeFolder {
 std::optional<EyeFolder> eye_folder(const fs::path& file) {
   fs::path below = file.stem();
   for (fs::path folder = file.parent_path(); !folder.empty(); folder = folder.parent_path()) {
-    const std::string name = in_small_letters(folder.filename().string());
+    const std::string name = lower_case(folder.filename().string());
     const auto found = std::ranges::find(eye_words, name, &EyeWord::word);
     if (found != eye_words.end()) return EyeFolder{*found, folder.parent_path(), below};
     below = folder.filename() / below;
@@ -92,7 +87,7 @@ std::optional<EyeName> eye_by_name(const fs::path& file) {
 bool is_map_name(const std::string& name) {
   constexpr std::array<std::string_view, 6> maps{"disp", "disparity", "depth", "mask", "occlusion", "confidence"};
   std::string word;
-  for (const char letter : in_small_letters(name) + "_") {
+  for (const char letter : lower_case(name) + "_") {
     if (separators.find(letter) == std::string_view::npos) {
       word += letter;
     } else {
@@ -214,7 +209,7 @@ std::vector<fs::path> without_depth(std::span<const fs::path> files, PairsByName
 }  // namespace
 
 bool is_depth_name(const fs::path& file) {
-  const std::string small = in_small_letters(file.stem().string());
+  const std::string small = lower_case(file.stem().string());
   return std::ranges::any_of(depth_ends,
                              [&](std::string_view end) { return small.size() > end.size() && small.ends_with(end); });
 }

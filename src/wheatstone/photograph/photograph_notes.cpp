@@ -2,9 +2,7 @@
 
 #include <libexif/exif-data.h>
 
-#include <algorithm>
 #include <array>
-#include <cctype>
 #include <cstdlib>
 #include <memory>
 #include <string_view>
@@ -63,8 +61,7 @@ std::string as_line(std::string_view bytes) {
 
 /// Cameras put their own name where a title is to stand.
 std::string without_camera_words(std::string title) {
-  std::string small = title;
-  std::ranges::transform(small, small.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string small = lower_case(title);
   const bool is_of_camera = small.ends_with("digital camera") || small.ends_with("digital still camera") ||
                             small == "sony dsc" || small == "default";
   return is_of_camera ? std::string() : title;

@@ -6,6 +6,7 @@
 #include "wheatstone/error.h"
 #include "wheatstone/photograph/jpeg_segments_internal.h"
 #include "wheatstone/photograph/stereo_marks_internal.h"
+#include "wheatstone/pictures/jpeg.h"
 
 namespace wheatstone {
 namespace {
@@ -53,18 +54,8 @@ std::string with_jps_descriptor(const std::string& jpeg, const JpsDescriptor& de
   data += static_cast<char>(descriptor.arrangement);
   data += '\1';                    // stereoscopic
   data += std::string("\0\0", 2);  // no comment
-  const std::size_t length = data.size() + 2;
-  std::string segment("\xFF\xE3", 2);
-  segment += static_cast<char>(length >> 8);
-  segment += static_cast<char>(length & 0xFF);
-
-  std::size_t place = 2;
-  for (const JpegSegment& before : jpeg_segments(jpeg)) {
-    if (before.marker != app0 && before.marker != app1) break;
-    place = before.begin + 4 + before.data.size();
-  }
   std::string marked = jpeg;
-  marked.insert(place, segment + data);
+  marked.insert(end_of_first_segments(jpeg), jpeg_segment(app3, data));
   return marked;
 }
 

@@ -145,6 +145,12 @@ class JpegReader : public PictureReader {
 
 bool is_jpeg(std::string_view bytes) { return bytes.starts_with("\xFF\xD8"); }
 
+std::string jpeg_segment(std::uint8_t marker, std::string_view data) {
+  const std::size_t length = 2 + data.size();
+  const std::string head{'\xFF', static_cast<char>(marker), static_cast<char>(length >> 8), static_cast<char>(length)};
+  return head + std::string(data);
+}
+
 bool jpeg_is_whole(std::string_view bytes) {
   const auto byte = [&](std::size_t i) { return static_cast<std::uint8_t>(bytes[i]); };
   if (bytes.size() < 4 || !is_jpeg(bytes)) return true;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <limits>
 #include <string>
 #include <string_view>
@@ -9,6 +10,9 @@
 namespace wheatstone {
 
 bool is_jpeg(std::string_view bytes);
+
+/// A segment with its marker, 0xE1 for APP1, and its length. ITU-T T.81, sec. B.1.1.4. `data` has at most 65 533 bytes.
+std::string jpeg_segment(std::uint8_t marker, std::string_view data);
 
 /// False for a JPEG that ends before its pixels do: decoders fill the rest with grey and say nothing. True for
 /// everything that is not JPEG. ITU-T T.81, annex B.

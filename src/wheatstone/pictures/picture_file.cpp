@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <fstream>
 #include <utility>
 
 #include "wheatstone/error.h"
 #include "wheatstone/files/module.h"
+#include "wheatstone/files/text_encoding.h"
 #include "wheatstone/files/whole_file.h"
 #include "wheatstone/pictures/encoders_internal.h"
 #include "wheatstone/pictures/exr_header_internal.h"
@@ -76,7 +76,7 @@ std::string encode_picture(const std::filesystem::path& path, const StoredPictur
     constexpr int usual_quality = 95;
     return whole(path, encode_jpeg(picture, rows, picture.value_of("jpeg:quality", usual_quality)));
   }
-  if (!rows.kind.is_float && (ending == ".tif" || ending == ".tiff")) return whole(path, encode_tiff(picture, rows));
+  if (!rows.kind.is_float && is_tiff_name(path)) return whole(path, encode_tiff(picture, rows));
   if (rows.kind == bytes_kind && picture.channels == 3 && ending == ".webp")
     return whole(path, encode_webp(picture, rows));
   std::vector<unsigned char> bytes;
@@ -91,10 +91,11 @@ PixelRows rows_of(ImageView<const Rgb16> image) { return all_rows(image, words_k
 PixelRows rows_of(ImageView<const std::uint8_t> image) { return all_rows(image, bytes_kind); }
 PixelRows rows_of(ImageView<const float> image) { return all_rows(image, floats_kind); }
 
-std::string ending_of(const std::filesystem::path& path) {
-  std::string ending = path.extension().string();
-  std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return ending;
+std::string ending_of(const std::filesystem::path& path) { return lower_case(path.extension().string()); }
+
+bool is_tiff_name(const std::filesystem::path& path) {
+  const std::string ending = ending_of(path);
+  return ending == ".tif" || ending == ".tiff";
 }
 
 }  // namespace wheatstone

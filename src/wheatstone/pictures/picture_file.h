@@ -144,5 +144,7 @@ PixelRows rows_of(ImageView<const float> image);
 
 /// The ending of a file name in small letters: ".png".
 std::string ending_of(const std::filesystem::path& path);
+/// Whether it is that of a TIFF.
+bool is_tiff_name(const std::filesystem::path& path);
 
 }  // namespace wheatstone

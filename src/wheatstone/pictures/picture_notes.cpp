@@ -43,10 +43,6 @@ std::string png_notes(const PictureNotes& notes) {
   return chunks;
 }
 
-std::string jpeg_segment(char marker, std::string_view data) {
-  return '\xFF' + (marker + two_bytes(2 + data.size())) + std::string(data);
-}
-
 /// ICC.1, annex B.4: in parts that are numbered from 1.
 std::string jpeg_profile(std::string_view profile) {
   constexpr std::size_t part_bytes = 65519, most_parts = 255;
@@ -55,8 +51,8 @@ std::string jpeg_profile(std::string_view profile) {
   if (parts > most_parts) return segments;
   for (std::size_t i = 0; i < parts; ++i)
     segments +=
-        jpeg_segment('\xE2', std::string("ICC_PROFILE\0", 12) + static_cast<char>(i + 1) + static_cast<char>(parts) +
-                                 std::string(profile.substr(i * part_bytes, part_bytes)));
+        jpeg_segment(0xE2, std::string("ICC_PROFILE\0", 12) + static_cast<char>(i + 1) + static_cast<char>(parts) +
+                               std::string(profile.substr(i * part_bytes, part_bytes)));
   return segments;
 }
 
@@ -74,7 +70,7 @@ void put_jpeg_notes(std::string& jpeg, const PictureNotes& notes) {
   constexpr std::size_t most_bytes = 65533;
   const bool has_exif = !notes.exif.empty() && exif.size() + notes.exif.size() <= most_bytes;
   jpeg.insert(has_jfif ? start + jfif_bytes : start,
-              (has_exif ? jpeg_segment('\xE1', std::string(exif) + notes.exif) : std::string()) +
+              (has_exif ? jpeg_segment(0xE1, std::string(exif) + notes.exif) : std::string()) +
                   jpeg_profile(notes.colour_profile));
 }
 

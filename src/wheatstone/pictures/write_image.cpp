@@ -46,8 +46,7 @@ void write_encoded(const fs::path& path, ImageView<const Pixel> image, const Pic
       described(image.width(), image.height(), static_cast<int>(8 * sizeof(Pixel)) / rows.kind.bits);
   picture.kind = rows.kind;
   if (!notes.colour_profile.empty()) picture.attributes.erase(colour_space);
-  const std::string ending = ending_of(path);
-  if (ending == ".tif" || ending == ".tiff") put_tiff_notes(picture, notes);
+  if (is_tiff_name(path)) put_tiff_notes(picture, notes);
   write_whole_file(path, with_notes(encode_picture(path, picture, rows), notes));
 }
 
@@ -91,9 +90,6 @@ bool takes_profile(const fs::path& path) {
   return takes_sixteen_bits(path) || ending == ".jpg" || ending == ".jpeg";
 }
 
-bool takes_sixteen_bits(const fs::path& path) {
-  const std::string ending = ending_of(path);
-  return ending == ".png" || ending == ".tif" || ending == ".tiff";
-}
+bool takes_sixteen_bits(const fs::path& path) { return ending_of(path) == ".png" || is_tiff_name(path); }
 
 }  // namespace wheatstone

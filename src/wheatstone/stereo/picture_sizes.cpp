@@ -12,6 +12,8 @@
 
 namespace wheatstone {
 
+bool is_large(PictureSize size) { return static_cast<double>(size.width) * size.height > 8e6; }
+
 PictureSize reduced_size(PictureSize whole, int longest_px) {
   const int longer = std::max(whole.width, whole.height);
   if (longer <= longest_px) return whole;

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "wheatstone/image/colour.h"
 #include "wheatstone/marks/spline.h"
 #include "wheatstone/strokes/layer_plan.h"
 
@@ -20,17 +21,16 @@ struct FitColour {
 
   // Steps of the planes for one level of sRGB: a level of grey is 0.39 of L*.
   static constexpr float luminance_step = 0.39f, red_step = 0.30f, blue_step = 0.24f;
-  static constexpr float red_share = 0.299f, green_share = 0.587f, blue_share = 0.114f;  // Rec. 601
 
   /// Converts a colour in sRGB, 0..255.
   static FitColour of(float r, float g, float b) {
-    const float y = red_share * r + green_share * g + blue_share * b;
+    const float y = luma_of(r, g, b);
     return {luminance_step * y, red_step * (r - y), blue_step * (b - y)};
   }
   /// The colour in sRGB, 0..255, not rounded.
   std::array<float, 3> rgb() const {
     const float y = luminance / luminance_step, r = y + red / red_step, b = y + blue / blue_step;
-    return {r, (y - red_share * r - blue_share * b) / green_share, b};
+    return {r, (y - luma_shares[0] * r - luma_shares[2] * b) / luma_shares[1], b};
   }
 };
 

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "wheatstone/error.h"
+#include "wheatstone/stereo/picture_sizes.h"
 #include "wheatstone/strokes/carry_strokes_internal.h"
 #include "wheatstone/strokes/fine_colours_internal.h"
 #include "wheatstone/strokes/layer_order.h"
@@ -28,7 +29,7 @@ class ViewsPlan {
   ViewsPlan(const Progress& progress, ImageView<const Rgb8> reference, std::size_t views, std::size_t layers)
       : progress_(progress),
         thrown_(views),
-        one_by_one_(static_cast<double>(reference.width()) * reference.height() > large_px),
+        one_by_one_(is_large({reference.width(), reference.height()})),
         steps_(views * (layers + 1)) {}
 
   /// Calls `plan(view)` for all views. Those of large pictures would take too much memory at once.
@@ -58,8 +59,6 @@ class ViewsPlan {
   }
 
  private:
-  static constexpr double large_px = 8e6;
-
   const Progress& progress_;
   std::vector<std::exception_ptr> thrown_;
   bool one_by_one_;
