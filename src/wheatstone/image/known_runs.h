@@ -28,6 +28,7 @@ class KnownRuns {
 
   int width() const { return width_; }
   int height() const { return static_cast<int>(first_runs_.size()) - 1; }
+  bool empty() const { return width() == 0 || height() == 0; }
   bool contains(int x, int y) const { return x >= 0 && y >= 0 && x < width_ && y < height(); }
   float operator()(int x, int y) const;
   /// One row with its unknown pixels; `to` has `width()` pixels.

@@ -44,11 +44,18 @@ Image<std::uint8_t> near_depth_edge(ImageView<const std::int16_t> steps, float r
   return marked(steps, radius_px, threshold_px, false);
 }
 
-Image<float> distance_to_depth_edge(ImageView<const std::int16_t> steps, float threshold_px, float most_px) {
+KnownRuns distance_to_depth_edge(ImageView<const std::int16_t> steps, float threshold_px, float most_px) {
+  constexpr int rows_a_band = 64, rows_at_a_time = 8 * rows_a_band;
   const Image<std::uint8_t> edges = near_depth_edge(steps, 1, threshold_px);
-  Image<float> distances(steps.width(), steps.height());
-  for_each_band(steps.height(), 64,
-                [&](int first, int end) { measure_edge_distances(edges, most_px, first, end, distances); });
+  KnownRuns distances(steps.width(), steps.height());
+  Image<float> some(steps.width(), std::min(rows_at_a_time, steps.height()));
+  for (int top = 0; top < steps.height(); top += rows_at_a_time) {
+    const int rows = std::min(rows_at_a_time, steps.height() - top);
+    for_each_band(rows, rows_a_band, [&](int first, int end) {
+      measure_edge_distances(edges, most_px, top + first, {&some(0, first), some.width(), end - first, some.width()});
+    });
+    for (int y = 0; y < rows; ++y) distances.add_row(some.row(y));
+  }
   return distances;
 }
 

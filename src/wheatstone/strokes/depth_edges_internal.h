@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "wheatstone/image/image.h"
+#include "wheatstone/image/known_runs.h"
 
 namespace wheatstone {
 
@@ -14,9 +15,9 @@ Image<std::int16_t> disparity_in_steps(ImageView<const float> disparity);
 /// a brush of radius R set down there would spill paint onto another surface (Stavrakis & Gelautz 2005, sec. 3.2).
 Image<std::uint8_t> near_depth_edge(ImageView<const std::int16_t> steps, float radius_px, float threshold_px);
 
-/// Distance in pixels from each pixel's centre to the nearest depth edge, at most `most_px`: 0.5 for the pixels on
-/// either side of one.
-Image<float> distance_to_depth_edge(ImageView<const std::int16_t> steps, float threshold_px, float most_px);
+/// Distance in pixels from each pixel's centre to the nearest depth edge, 0.5 for the pixels on either side of one;
+/// unknown where it is `most_px`, at most 240, or more.
+KnownRuns distance_to_depth_edge(ImageView<const std::int16_t> steps, float threshold_px, float most_px);
 
 /// 255 for every pixel that has a surface nearer than its own by more than `threshold_px` within `reach_px`. A camera
 /// mixes the two surfaces' colours there, and disparity maps are least to be trusted: a stroke of that colour would
@@ -41,9 +42,9 @@ struct ChamferSteps {
   static constexpr int straight = 62587, diagonal = 89738;  // 0.955 px and 1.3693 px
 };
 
-/// Distances to the nearest pixel of a mask that is 255, plus half a pixel. They are at most `most_px`, which is at
-/// most 240.
-void measure_edge_distances(ImageView<const std::uint8_t> edges, float most_px, int first_row, int end_row,
-                            Image<float>& distances);
+/// Distances from some rows of a mask to its nearest pixel that is 255, plus half a pixel; NaN from `most_px` on.
+/// `distances` holds these rows alone.
+void measure_edge_distances(ImageView<const std::uint8_t> edges, float most_px, int first_row,
+                            ImageView<float> distances);
 
 }  // namespace wheatstone

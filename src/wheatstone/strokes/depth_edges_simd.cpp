@@ -138,10 +138,11 @@ void mark_depth_edges(const DepthEdgeMarks& wanted, int first_row, int end_row, 
   HWY_DYNAMIC_DISPATCH(mark)(wanted, first_row, end_row, marks);
 }
 
-void measure_edge_distances(ImageView<const std::uint8_t> edges, float most_px, int first_row, int end_row,
-                            Image<float>& distances) {
+void measure_edge_distances(ImageView<const std::uint8_t> edges, float most_px, int first_row,
+                            ImageView<float> distances) {
   constexpr int widest_vector = 64, no_edge = std::numeric_limits<std::int32_t>::max();
   const int width = edges.width(), reach = static_cast<int>(std::ceil(most_px));
+  const int end_row = first_row + distances.height();
   const int top = std::max(first_row - reach, 0), bottom = std::min(end_row + reach, edges.height());
   const auto padded = static_cast<std::size_t>(width) + 2 * static_cast<std::size_t>(reach + widest_vector);
   std::vector<std::uint8_t> row(padded), columns(padded * static_cast<std::size_t>(bottom - top));
@@ -160,9 +161,11 @@ void measure_edge_distances(ImageView<const std::uint8_t> edges, float most_px, 
     for (int other = std::max(y - reach, top); other < std::min(y + reach + 1, bottom); ++other)
       if (has_edge[static_cast<std::size_t>(other - top)] != 0)
         HWY_DYNAMIC_DISPATCH(lower_to_row)(columns_of(other), std::abs(other - y), width, steps.data());
-    const auto to = distances.row(y);
-    for (int x = 0; x < width; ++x)
-      to[x] = std::min(static_cast<float>(steps[static_cast<std::size_t>(x)]) / ChamferSteps::one_px + 0.5f, most_px);
+    const auto to = distances.row(y - first_row);
+    for (int x = 0; x < width; ++x) {
+      const float distance = static_cast<float>(steps[static_cast<std::size_t>(x)]) / ChamferSteps::one_px + 0.5f;
+      to[x] = distance < most_px ? distance : std::numeric_limits<float>::quiet_NaN();
+    }
   }
 }
 

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "wheatstone/image/known_runs.h"
 #include "wheatstone/marks/stroke_painting.h"
 #include "wheatstone/marks/style.h"
 #include "wheatstone/progress.h"
@@ -73,7 +74,7 @@ struct LayerPlan {
   float depth_threshold_px = 2;            ///< T_depth; without the test, more than any disparity
   float least_edge_cell_px = 1;            ///< of the grid beside depth edges
   Image<std::uint8_t> depth_edges = {};    ///< as near_depth_edge
-  Image<float> edge_distance = {};         ///< as distance_to_depth_edge; empty: leave the edges to a finer layer
+  KnownRuns edge_distance = {};            ///< as distance_to_depth_edge; empty: leave the edges to a finer layer
   Image<std::uint8_t> mixed_colours = {};  ///< as behind_depth_edge: no stroke takes its colour there
 };
 

@@ -148,9 +148,8 @@ void smooth_disparities(std::span<ControlPoint> points) {
 /// `points` are the stroke's.
 void keep_within_outlines(const LayerPlan& plan, float radius_px, std::span<ControlPoint> points) {
   const StrokeGround ground{plan.view.disparity, plan.depth_threshold_px, plan.beside};
-  const float far_px = plan.radius_px + known_edge_distance_px;
   for (ControlPoint& point : points)
-    if (plan.edge_distance(static_cast<int>(point.x), static_cast<int>(point.y)) < far_px)
+    if (!std::isnan(plan.edge_distance(static_cast<int>(point.x), static_cast<int>(point.y))))
       point.disparity = disparity_within_outline(ground, point, radius_px);
   // The stroke stays on its surface.
   const auto follow = [&](std::size_t i, std::size_t neighbour) {
@@ -243,8 +242,8 @@ void settle_disparities(const LayerPlan& plan, float radius_px, std::span<Contro
 
 float stroke_radius(const LayerPlan& plan, Place place, const Seed& seed) {
   if (place == Place::open) return plan.radius_px;
-  const float least_px = std::min(0.75f, plan.radius_px);
-  return std::clamp(plan.edge_distance(seed.x, seed.y), least_px, plan.radius_px);
+  const float distance_px = plan.edge_distance(seed.x, seed.y), least_px = std::min(0.75f, plan.radius_px);
+  return std::isnan(distance_px) ? plan.radius_px : std::clamp(distance_px, least_px, plan.radius_px);
 }
 
 Layer plan_layer(const LayerPlan& plan) {
