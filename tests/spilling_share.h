@@ -12,13 +12,13 @@ namespace wheatstone {
 /// A view's disparities and how far its pixels are from depth edges.
 struct ViewSurfaces {
   const Image<float>& disparity;
-  Image<float> edge_distance;
+  KnownRuns edge_distance;
   float threshold_px;
 };
 
 inline bool is_far_from_edge(const ViewSurfaces& surfaces, float x, float y, float radius_px) {
   const int column = static_cast<int>(x), row = static_cast<int>(y);
-  return surfaces.edge_distance.contains(column, row) && surfaces.edge_distance(column, row) > radius_px;
+  return surfaces.edge_distance.contains(column, row) && !(surfaces.edge_distance(column, row) <= radius_px);
 }
 
 /// True where a stroke jumps from one surface to another and is planned on there; a second jump takes it home.

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <fmt/format.h>
-#include <zlib.h>
 
 #include <algorithm>
 #include <cstdint>
@@ -10,6 +9,7 @@
 
 #include "wheatstone/depth/view_position.h"
 #include "wheatstone/error.h"
+#include "wheatstone/files/deflate.h"
 #include "wheatstone/files/field_bytes.h"
 
 namespace wheatstone {
@@ -26,8 +26,7 @@ struct FieldFile {
 
 inline std::string field_file_head(const FieldFile& file, std::string_view content) {
   FieldWriter head{std::string(file.magic)};
-  const auto* const bytes = reinterpret_cast<const Bytef*>(content.data());  // NOLINT: zlib's own type
-  head(static_cast<std::uint32_t>(crc32_z(0, bytes, content.size())));
+  head(crc32_of(content));
   return std::move(head.bytes);
 }
 

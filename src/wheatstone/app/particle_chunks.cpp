@@ -148,6 +148,12 @@ SelectionCounts for_each_chunk(const std::filesystem::path& file, const RenderPa
   return all;
 }
 
+/// Whether no particle is left out by a choice.
+bool chooses_all(const RenderParticlesOptions& options) {
+  const Selection& selection = options.selection;
+  return std::holds_alternative<std::monostate>(selection.cut) && selection.every <= 1 && !options.choice.where;
+}
+
 /// Whether kernels or brightness need a density that the particles do not have.
 bool lacks_density(const Cloud& cloud, const RenderParticlesOptions& options) {
   const bool sized = options.appearance.look == Look::mass && !cloud.smoothing_length.empty();
@@ -202,7 +208,6 @@ void refuse_nothing(const std::filesystem::path& file, const RenderParticlesOpti
 
 SurveyedParticles survey(const std::filesystem::path& file, const RenderParticlesOptions& options,
                          const Progress& progress) {
-  constexpr std::size_t most_bytes_kept = std::size_t{128} << 20;
   const Ranks& ranks = options.rendering.ranks;
   SurveyedParticles surveyed;
   surveyed.all_kept = !options.stream;
@@ -224,16 +229,22 @@ SurveyedParticles survey(const std::filesystem::path& file, const RenderParticle
     // Sums depend on their order: chunk by chunk, as one rank would.
     for (const double of_chunk : ranks.from_all(statistics.mass)) mass += of_chunk;
     for (const std::uint64_t of_chunk : ranks.from_all(std::uint64_t{bytes_of(chunk)})) bytes += of_chunk;
-    // To keep a part in vain would take longer than to read it again: fresh memory is slow to get.
-    const bool all_chosen = sum_of(round, &RoundShare::kept) == sum_of(round, &RoundShare::read);
-    const std::uint64_t expected_bytes = all_chosen && in_file ? bytes / before * *in_file : bytes;
-    if (surveyed.all_kept && std::max(bytes, expected_bytes) > most_bytes_kept) {
+    // Fresh memory takes longer to get than the particles to read: of a file that will be too large nothing is kept.
+    const bool will_be_too_large =
+        chooses_all(options) && in_file && bytes / before > options.most_bytes_kept / *in_file;
+    if (surveyed.all_kept && (bytes > options.most_bytes_kept || will_be_too_large)) {
       surveyed.all_kept = false;
       surveyed.kept.clear();
     }
     if (surveyed.all_kept) surveyed.kept.push_back(std::move(chunk));
   };
   surveyed.counts = for_each_chunk(file, options, "reading", progress, look_at);
+  // Fewer particles than expected may be left, because some have no finite position or no mass.
+  if (!surveyed.all_kept && !options.stream && bytes <= options.most_bytes_kept) {
+    for_each_chunk(file, options, "reading", progress,
+                   [&](Cloud& chunk, const auto&...) { surveyed.kept.push_back(std::move(chunk)); });
+    surveyed.all_kept = true;
+  }
   surveyed.statistics.share(ranks);
   surveyed.statistics.mass = mass;
   if (surveyed.statistics.count == 0) refuse_nothing(file, options, surveyed.counts);

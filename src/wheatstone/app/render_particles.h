@@ -67,10 +67,12 @@ struct RenderParticlesOptions {
   /// The values at which the colours begin and end, in units of the shown values: of a column density, unless a
   /// quantity is shown. NaN: found.
   float least = ToneSettings::automatic, most = ToneSettings::automatic;
-  bool values = false;          ///< views as numbers too
-  bool slices = false;          ///< make slices, and the views from them
-  bool without_views = false;   ///< make slices only
-  bool stream = false;          ///< never hold all particles: two passes over the file, chunk by chunk; by slices
+  bool values = false;         ///< views as numbers too
+  bool slices = false;         ///< make slices, and the views from them
+  bool without_views = false;  ///< make slices only
+  bool stream = false;         ///< never hold all particles: two passes over the file, chunk by chunk; by slices
+  /// A file whose chosen particles take up to so many bytes is kept and read once.
+  std::size_t most_bytes_kept = std::size_t{128} << 20;
   std::size_t chunk = 1 << 16;  ///< particles; what is made of so few stays in the cache
 };
 

@@ -3,9 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <limits>
 
 #include "psnr.h"
 #include "temporary_folder.h"
@@ -175,6 +177,42 @@ TEST(RenderParticles, OfAStreamHaveNearlyTheSizesThatNeighboursTell) {
   EXPECT_EQ(whole.density, DensitySource::neighbours);
   EXPECT_EQ(stream.density, DensitySource::grid);
   EXPECT_GT(psnr_db(stream.rendered.views[0], whole.rendered.views[0]), 27);
+}
+
+TEST(RenderParticles, AreKeptByTheMemoryOfThoseThatAreChosenInWhateverOrder) {
+  const TemporaryFolder folder;
+  constexpr double away = 1000;
+  std::vector<double> points = cluster(1, 0);
+  const std::size_t numbers = points.size();
+  for (std::size_t i = 0; i < 3 * numbers; ++i) points.push_back(points[i % numbers] + away);
+  write_whole_file(folder / "first.ply", as_ply(points));
+  std::ranges::rotate(points, points.begin() + static_cast<std::ptrdiff_t>(numbers));
+  write_whole_file(folder / "last.ply", as_ply(points));
+  const std::size_t bytes = numbers * sizeof(float);
+  for (const char* name : {"first.ply", "last.ply"}) {
+    RenderParticlesOptions options{.most_bytes_kept = bytes, .chunk = 100};
+    options.selection.cut = Sphere{{0, 0, 0}, away / 2};
+    EXPECT_EQ(rendered(folder / name, options).density, DensitySource::neighbours) << name;
+    options.most_bytes_kept = bytes - 1;
+    EXPECT_EQ(rendered(folder / name, options).density, DensitySource::grid) << name;
+    options.selection = {};
+    options.most_bytes_kept = 4 * bytes;
+    EXPECT_EQ(rendered(folder / name, options).density, DensitySource::neighbours) << name;
+    options.most_bytes_kept = 4 * bytes - 1;
+    EXPECT_EQ(rendered(folder / name, options).density, DensitySource::grid) << name;
+  }
+}
+
+TEST(RenderParticles, AreKeptWhereFewerThanExpectedAreLeft) {
+  const TemporaryFolder folder;
+  std::vector<double> points = cluster(1, 0);
+  const std::size_t bytes = points.size() * sizeof(float);
+  points.resize(4 * points.size(), std::numeric_limits<double>::quiet_NaN());
+  write_whole_file(folder / "a.ply", as_ply(points));
+  const RenderedParticles made = rendered(folder / "a.ply", {.most_bytes_kept = bytes, .chunk = 100});
+  EXPECT_EQ(made.density, DensitySource::neighbours);
+  EXPECT_EQ(made.particles, bytes / (3 * sizeof(float)));
+  EXPECT_EQ(made.dropped, bytes / sizeof(float));
 }
 
 TEST(RenderParticles, OfWhichEveryThirdIsKeptHaveTheMassOfAll) {

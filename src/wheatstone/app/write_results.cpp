@@ -91,7 +91,7 @@ std::vector<std::string> write_flat(OutputFolder& folder, const PaintingReport& 
 struct Output {
   std::string name;
   std::function<void(const std::filesystem::path&)> write;
-  bool is_plain = false;  ///< nothing is encoded
+  bool is_plain = false;  ///< written by one thread, because nothing is encoded
 };
 
 /// Writes all files of a result whose pictures have this size.
@@ -104,8 +104,12 @@ void write_all(std::span<const Output> outputs, OutputFolder& folder, PictureSiz
     const std::scoped_lock lock(reporting);
     report(progress, "writing", static_cast<double>(++written) / static_cast<double>(outputs.size()));
   };
-  if (!is_large(size)) return tbb::parallel_for_each(outputs, write);
-  // Large files are encoded in parallel blocks: all of them at once would only take more memory.
+  if (!is_large(size)) {
+    tbb::parallel_for_each(outputs, write);
+    return;
+  }
+  // Encoders of large files use all threads: they take turns, because all of them at once would only take more memory.
+  // Plain files are written meanwhile.
   const auto write_where = [&](bool is_plain) {
     for (const Output& output : outputs)
       if (output.is_plain == is_plain) write(output);
@@ -173,9 +177,9 @@ std::vector<std::string> write_results(OutputFolder& folder, const StereoPair& p
         {picture("right_photograph"), [&](const Path& path) { write_image(path, photographs.right, options.notes); }});
   }
   if (options.html) {
-    outputs.push_back({"index.html", [&](const Path& path) {
-                         write_whole_file(path, gallery_html(options.format, report_json(told)));
-                       }});
+    outputs.push_back(
+        {"index.html",
+         [&](const Path& path) { write_whole_file(path, gallery_html(options.format, report_json(told))); }, true});
   }
 
   write_all(outputs, folder, {pictures.left.width(), pictures.left.height()}, progress);

@@ -1,5 +1,6 @@
 #include "wheatstone/files/deflate.h"
 
+#include <isa-l/crc.h>
 #include <isa-l/igzip_lib.h>
 #include <tbb/parallel_for.h>
 #include <zlib.h>
@@ -105,6 +106,11 @@ std::vector<std::uint8_t> deflated(std::span<const std::uint8_t> bytes, int leve
   return result;
 }
 
+std::uint32_t crc32_of(std::span<const std::uint8_t> bytes) { return crc32_gzip_refl(0, bytes.data(), bytes.size()); }
+std::uint32_t crc32_of(std::string_view bytes) {
+  return crc32_gzip_refl(0, reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
+}
+
 std::optional<std::vector<std::uint8_t>> inflated(std::span<const std::uint8_t> bytes, std::size_t size) {
   constexpr std::size_t most_inflation = 1032;  // deflate cannot make more of a byte
   if (size > bytes.size() * most_inflation) return {};
@@ -123,13 +129,13 @@ std::optional<std::vector<std::uint8_t>> inflated(std::span<const std::uint8_t> 
     state->avail_out = static_cast<std::uint32_t>(room);
     if (isal_inflate(state.get()) != ISAL_DECOMP_OK) return {};
     const std::size_t used = given - state->avail_in, made = room - state->avail_out;
-    if (used == 0 && made == 0) break;
+    if (used == 0 && made == 0) return {};
     to_read = to_read.subspan(used);
     to_write = to_write.subspan(made);
   } while (state->block_state != ISAL_BLOCK_FINISH);
-  constexpr int bits_a_byte = 8;  // whole bytes that the library took and did not read lie behind the stream
-  const bool ends_here = to_read.empty() && state->read_in_length < bits_a_byte;
-  if (state->block_state != ISAL_BLOCK_FINISH || !ends_here || !to_write.empty()) return {};
+  // The library reads ahead. A whole byte that it did not use lies behind the stream.
+  constexpr int bits_a_byte = 8;
+  if (!to_read.empty() || state->read_in_length >= bits_a_byte || !to_write.empty()) return {};
   return result;
 }
 

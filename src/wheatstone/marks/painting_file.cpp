@@ -3,7 +3,6 @@
 #include <flatbuffers/flatbuffers.h>
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
-#include <zlib.h>
 
 #include <cmath>
 #include <optional>
@@ -24,10 +23,6 @@ constexpr std::uint32_t first_version = 1, current_version = 4;
 constexpr std::size_t most_bytes = 0x7fffffff;  // FlatBuffers' own limit
 constexpr std::uint32_t largest_side_px = 65535;
 constexpr float farthest_view = 1000;  ///< more eye separations than any display has
-
-std::uint32_t checksum(const std::uint8_t* bytes, std::size_t size) {
-  return static_cast<std::uint32_t>(crc32_z(0, bytes, size));
-}
 
 /// Points as the file holds them.
 struct PointColumns {
@@ -374,8 +369,7 @@ std::string encode_painting(const Painting& painting) {
   flatbuffers::FlatBufferBuilder builder;
   const std::vector<std::uint8_t> bytes = deflated({payload.GetBufferPointer(), payload.GetSize()});
   file::FinishPaintingFileBuffer(
-      builder, file::CreatePaintingFileDirect(builder, current_version, checksum(bytes.data(), bytes.size()), &bytes,
-                                              payload.GetSize()));
+      builder, file::CreatePaintingFileDirect(builder, current_version, crc32_of(bytes), &bytes, payload.GetSize()));
   return {reinterpret_cast<const char*>(builder.GetBufferPointer()), builder.GetSize()};
 }
 
@@ -395,7 +389,7 @@ Painting decode_painting(std::string_view bytes, std::string_view name) {
   checker.expect(
       file.version() >= first_version && file.version() <= current_version,
       fmt::format("the painting has version {}, expected {} to {}", file.version(), first_version, current_version));
-  checker.expect(checksum(file.payload()->data(), file.payload()->size()) == file.checksum(),
+  checker.expect(crc32_of(std::span(file.payload()->data(), file.payload()->size())) == file.checksum(),
                  "the painting is damaged: its checksum does not match");
 
   const std::vector<std::uint8_t> payload = payload_of(file, checker);

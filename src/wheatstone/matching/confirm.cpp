@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <opencv2/imgproc.hpp>
-#include <utility>
+#include <span>
 #include <vector>
 
 #include "wheatstone/image/mat_opencv.h"
@@ -66,8 +66,9 @@ Image<int> whole_sixteenths(const Image<float>& disparity) {
   return sixteenths;
 }
 
-/// Patches of pixels that are connected by steps to neighbours of like disparity, as trees: a root holds minus the
-/// number of pixels of its patch, another pixel the index of one nearer to its root. Indices count pixels row by row.
+/// Patches of pixels that are connected by steps to neighbours of like disparity, as trees. A root holds minus the
+/// number of its patch's pixels, every other pixel the index of its parent, which is smaller than its own. Indices
+/// count pixels row by row.
 class Patches {
  public:
   explicit Patches(const Image<int>& sixteenths)
@@ -79,12 +80,12 @@ class Patches {
       }
     });
     for (int y = rows_a_band; y < sixteenths.height(); y += rows_a_band) join_to_row_above(y);
+    // From the first pixel on, every parent is a root or hangs on one: all become children of their roots.
+    for (int& parent : trees_)
+      if (parent >= 0 && trees_[parent] >= 0) parent = trees_[parent];
   }
 
-  int size_of_patch(int at) const {
-    while (trees_[at] >= 0) at = trees_[at];
-    return -trees_[at];
-  }
+  int size_of_patch(int at) const { return -(trees_[at] >= 0 ? trees_[trees_[at]] : trees_[at]); }
 
  private:
   bool are_alike(int a, int b) const {
@@ -124,8 +125,10 @@ void remove_speckles(Image<float>& disparity, int least_surface_px) {
   const Patches patches(sixteenths);
   tbb::parallel_for(0, disparity.height(), [&](int y) {
     const auto row = disparity.row(y);
+    const auto known = sixteenths.row(y);
     for (int x = 0; x < disparity.width(); ++x)
-      if (patches.size_of_patch(y * disparity.width() + x) <= least_surface_px) row[x] = unknown;
+      if (known[x] != no_disparity && patches.size_of_patch(y * disparity.width() + x) <= least_surface_px)
+        row[x] = unknown;
   });
 }
 

@@ -54,6 +54,23 @@ TEST(RemoveSpeckles, RemovesFromASideLongerThan16BitsCount) {
   EXPECT_EQ(row(0, 0), 3);
 }
 
+TEST(RemoveSpeckles, KeepsStripesThatAreJoinedFarBelowAndRemovesThoseThatAreNot) {
+  constexpr int columns = 60, rows = 300, joined = 40;
+  Image<float> disparity(columns, rows, std::numeric_limits<float>::quiet_NaN());
+  for (int x = 0; x < columns; x += 2)
+    for (int y = x; y < rows; ++y) disparity(x, y) = 5;
+  for (int x = 0; x <= joined; ++x) disparity(x, rows - 1) = 5;
+  remove_speckles(disparity, rows);  // one stripe has fewer pixels, those that are joined have more
+  for (int x = 0; x < columns; x += 2)
+    for (const int y : {x, 150, rows - 1}) EXPECT_EQ(disparity(x, y) == 5, x <= joined) << x << " " << y;
+}
+
+TEST(RemoveSpeckles, LeavesInfiniteDisparities) {
+  Image<float> disparity(3, 3, std::numeric_limits<float>::infinity());
+  remove_speckles(disparity, 100);
+  EXPECT_EQ(disparity(1, 1), std::numeric_limits<float>::infinity());
+}
+
 TEST(RemoveSpecklesButHoles, RemovesWhatCanBeNoHole) {
   Image<float> disparity = fenced_wall();
   set_patch(disparity, {80, 60, 8, 7}, fence + 10);  // nearer than what is around it

@@ -1,9 +1,9 @@
 #include "wheatstone/matching/match.h"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 #include <tbb/parallel_invoke.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>

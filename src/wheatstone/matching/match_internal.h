@@ -18,10 +18,11 @@ inline constexpr int sixteenths_a_px = 16;
 /// Disparity of a pixel of which nothing is known.
 inline constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
 
+/// The rows of a band, but for the last one.
 inline constexpr int rows_a_band = 64;
 
-/// Calls `work` with the rows of every band of a picture, on all processors. OpenCV's filters of a band read the rows
-/// beside it, as long as it is a part of the whole picture.
+/// Calls `work` with the rows of every band of a picture, on all processors. Filters that take a border, as
+/// cv::boxFilter does, read the rows beside a band of a whole picture; cv::medianBlur does not.
 template <class Work>
 void for_each_band(int rows, const Work& work) {
   tbb::parallel_for(0, (rows + rows_a_band - 1) / rows_a_band,

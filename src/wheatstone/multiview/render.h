@@ -29,7 +29,7 @@ enum class Method {
   layered,      ///< cut into depth planes that are moved (MLR; ch. 5)
 };
 
-/// As users write it.
+/// The name of a method in options and reports.
 constexpr std::string_view name_of(Method method) {
   constexpr std::array<std::string_view, 4> names{"auto", "exact", "incremental", "layered"};
   return names[static_cast<std::size_t>(method)];

@@ -1,7 +1,6 @@
 // What the files of GADGET's own binary snapshots hold, formats 1 and 2: Fortran records, each between two markers that
 // say its length.
 
-#include "wheatstone/files/text_encoding.h"
 #include "wheatstone/particles/gadget_blocks_internal.h"
 
 #include <fmt/format.h>
@@ -11,8 +10,8 @@
 #include <string_view>
 
 #include "wheatstone/error.h"
+#include "wheatstone/files/text_encoding.h"
 #include "wheatstone/files/whole_file.h"
-#include "wheatstone/particles/columns_internal.h"
 
 namespace wheatstone {
 namespace {

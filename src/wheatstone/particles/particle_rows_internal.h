@@ -24,7 +24,8 @@ struct ParticleRows {
   std::size_t size() const { return x.size() + (points.size() + single_points.size()) / 3; }
 };
 
-/// Puts the next rows of a file, at most so many, into rows that are empty but may have memory; none at the end.
+/// Puts the next rows of a file, at most so many, into rows that are empty, but for the positions of `others`, and may
+/// have memory; none at the end.
 using RowReader = std::function<void(std::size_t most, ParticleRows& rows)>;
 
 /// Rows of x, y, z one after the other, as most files hold positions, each row `width` ≥ 3 numbers long.

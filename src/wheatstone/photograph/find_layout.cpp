@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "wheatstone/files/text_encoding.h"
 #include "wheatstone/matching/eye_order.h"
 #include "wheatstone/matching/not_a_pair.h"
 #include "wheatstone/pictures/picture_file.h"
@@ -41,9 +42,9 @@ Word meaning_of(std::string_view word) {
 /// The words of a name in small letters: what stands between its spaces, dots, dashes and underscores.
 std::vector<std::string> words_of(const std::string& name) {
   std::vector<std::string> found(1);
-  for (const char letter : name) {
+  for (const char letter : lower_case(name)) {
     if (std::isalnum(static_cast<unsigned char>(letter)) != 0) {
-      found.back() += static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
+      found.back() += letter;
     } else if (!found.back().empty()) {
       found.emplace_back();
     }

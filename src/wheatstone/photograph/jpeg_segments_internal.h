@@ -24,7 +24,7 @@ struct JpegSegment {
 /// before the damage where a length points beyond the bytes. ITU-T T.81, sec. B.1.
 std::vector<JpegSegment> jpeg_segments(std::string_view bytes);
 
-/// Where the segments of JFIF and Exif end, behind which others stand, in a JPEG's bytes.
+/// The end of the APP0 and APP1 segments at the start of a JPEG. JFIF and Exif must come first; others stand behind.
 std::size_t end_of_first_segments(std::string_view jpeg);
 
 struct JpegSize {

@@ -9,7 +9,6 @@
 #include <limits>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "wheatstone/error.h"
 #include "wheatstone/files/whole_file.h"

@@ -107,8 +107,8 @@ std::string encode_png(const StoredPicture& picture, const PixelRows& rows) {
     if (text != nullptr && name.starts_with(png_text))
       append_png_chunk("tEXt", name.substr(png_text.size()) + '\0' + *text, png);
   }
-  constexpr std::size_t longest_chunk = std::size_t{1} << 30, of_frames = 1024;
-  png.reserve(png.size() + deflated.size() + of_frames);
+  constexpr std::size_t longest_chunk = std::size_t{1} << 30, for_frames_of_chunks = 1024;
+  png.reserve(png.size() + deflated.size() + for_frames_of_chunks);
   for (std::size_t at = 0; at < deflated.size(); at += longest_chunk)
     append_png_chunk("IDAT", std::string_view(deflated).substr(at, longest_chunk), png);
   append_png_chunk("IEND", {}, png);

@@ -144,7 +144,7 @@ PixelRows rows_of(ImageView<const float> image);
 
 /// The ending of a file name in small letters: ".png".
 std::string ending_of(const std::filesystem::path& path);
-/// Whether it is that of a TIFF.
+/// Whether a file name ends as that of a TIFF does.
 bool is_tiff_name(const std::filesystem::path& path);
 
 }  // namespace wheatstone

@@ -1,15 +1,8 @@
-#include <isa-l/crc.h>
-
 #include "wheatstone/pictures/png_chunks.h"
 
+#include "wheatstone/files/deflate.h"
+
 namespace wheatstone {
-namespace {
-
-std::uint32_t checksum_of(std::string_view bytes) {
-  return crc32_gzip_refl(0, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size());
-}
-
-}  // namespace
 
 std::uint32_t png_number(std::string_view bytes, std::size_t at) {
   std::uint32_t number = 0;
@@ -24,7 +17,7 @@ std::optional<std::vector<PngChunk>> png_chunks(std::string_view bytes) {
     const std::size_t length = png_number(bytes, at);
     if (length > bytes.size() - at - frame_size) return {};
     const std::string_view whole = bytes.substr(at, frame_size + length), checked = whole.substr(4, 4 + length);
-    if (checksum_of(checked) != png_number(whole, 8 + length)) return {};
+    if (crc32_of(checked) != png_number(whole, 8 + length)) return {};
     chunks.push_back({checked.substr(0, 4), checked.substr(4), whole});
     if (chunks.back().type == "IEND") return chunks;
     at += whole.size();
@@ -40,7 +33,7 @@ void append_png_chunk(std::string_view type, std::string_view data, std::string&
   append_png_number(data.size(), to);
   const std::size_t checked = to.size();
   to.append(type).append(data);
-  append_png_number(checksum_of(std::string_view(to).substr(checked)), to);
+  append_png_number(crc32_of(std::string_view(to).substr(checked)), to);
 }
 
 }  // namespace wheatstone

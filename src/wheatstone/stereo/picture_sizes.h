@@ -11,7 +11,7 @@ PictureSize reduced_size(PictureSize whole, int longest_px);
 /// A smaller copy, each pixel the mean of the area that it covers. Sizes are at least 1x1.
 Image<Rgb8> reduced(ImageView<const Rgb8> picture, PictureSize size);
 
-/// Whether a picture has so many pixels, more than 8 million, that saving memory counts for more than saving time.
+/// Whether a picture has more than 8 million pixels. Memory then counts for more than time.
 bool is_large(PictureSize size);
 
 /// Whether two pictures' sizes differ by a few rows or columns, a fiftieth of a side at most, as crops of one size that
