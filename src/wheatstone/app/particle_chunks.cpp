@@ -211,12 +211,12 @@ SurveyedParticles survey(const std::filesystem::path& file, const RenderParticle
   const Ranks& ranks = options.rendering.ranks;
   SurveyedParticles surveyed;
   surveyed.all_kept = !options.stream;
-  std::uint64_t bytes = 0, before = 0;  // of all ranks
+  std::uint64_t bytes = 0, kept_so_far = 0;  // of all ranks
   double mass = 0;
   std::shared_ptr<DensityGrid> grid;
   const auto look_at = [&](Cloud& chunk, std::span<const RoundShare> round, std::optional<std::uint64_t> in_file) {
     CloudStatistics& statistics = surveyed.statistics;
-    if (before == 0) {
+    if (kept_so_far == 0) {
       // The empty chunk of a rank without particles in this round does not tell whether a density is lacking.
       const bool lacks = anywhere(chunk.size() > 0 && lacks_density(chunk, options), ranks);
       if (lacks || options.appearance.shine > 0) grid = std::make_shared<DensityGrid>();
@@ -224,15 +224,18 @@ SurveyedParticles survey(const std::filesystem::path& file, const RenderParticle
     }
     if (grid) grid->add(chunk, ranks);
     statistics.mass = 0;
-    statistics.add(chunk, before + sum_of(round.first(static_cast<std::size_t>(ranks.rank())), &RoundShare::kept));
-    before += sum_of(round, &RoundShare::kept);
+    statistics.add(chunk, kept_so_far + sum_of(round.first(static_cast<std::size_t>(ranks.rank())), &RoundShare::kept));
+    kept_so_far += sum_of(round, &RoundShare::kept);
     // Sums depend on their order: chunk by chunk, as one rank would.
     for (const double of_chunk : ranks.from_all(statistics.mass)) mass += of_chunk;
     for (const std::uint64_t of_chunk : ranks.from_all(std::uint64_t{bytes_of(chunk)})) bytes += of_chunk;
     // Fresh memory takes longer to get than the particles to read: of a file that will be too large nothing is kept.
-    const bool will_be_too_large =
-        chooses_all(options) && in_file && bytes / before > options.most_bytes_kept / *in_file;
-    if (surveyed.all_kept && (bytes > options.most_bytes_kept || will_be_too_large)) {
+    const double expected_bytes =
+        chooses_all(options) && in_file
+            ? static_cast<double>(bytes) / static_cast<double>(kept_so_far) * static_cast<double>(*in_file)
+            : 0;
+    const auto most_bytes = static_cast<double>(options.most_bytes_kept);
+    if (surveyed.all_kept && std::max(static_cast<double>(bytes), expected_bytes) > most_bytes) {
       surveyed.all_kept = false;
       surveyed.kept.clear();
     }
