@@ -148,9 +148,12 @@ void smooth_disparities(std::span<ControlPoint> points) {
 /// `points` are the stroke's.
 void keep_within_outlines(const LayerPlan& plan, float radius_px, std::span<ControlPoint> points) {
   const StrokeGround ground{plan.view.disparity, plan.depth_threshold_px, plan.beside};
+  const auto is_near_edge = [&](const ControlPoint& point) {
+    const int column = static_cast<int>(point.x), row = static_cast<int>(point.y);
+    return plan.edge_distance.contains(column, row) && !std::isnan(plan.edge_distance(column, row));
+  };
   for (ControlPoint& point : points)
-    if (!std::isnan(plan.edge_distance(static_cast<int>(point.x), static_cast<int>(point.y))))
-      point.disparity = disparity_within_outline(ground, point, radius_px);
+    if (is_near_edge(point)) point.disparity = disparity_within_outline(ground, point, radius_px);
   // The stroke stays on its surface.
   const auto follow = [&](std::size_t i, std::size_t neighbour) {
     points[i].disparity = std::max(points[i].disparity, points[neighbour].disparity - plan.depth_threshold_px);

@@ -114,6 +114,15 @@ TEST(DepthEdges, DistancesAreThoseToTheNearestOneUpToTheBorders) {
   }
 }
 
+TEST(SettleDisparities, LeavesPointsBeyondThePicture) {
+  const Bench bench(Image<Rgb8>(20, 12));
+  LayerPlan plan = bench.plan();
+  plan.edge_distance = distance_to_depth_edge(disparity_in_steps(bench.disparity), 2, 6);
+  std::vector<ControlPoint> points{{-30, 4, 5}, {4, 12.5f, 5}, {4, 4000, 5}, {40, -7, 5}};
+  settle_disparities(plan, 2, points);
+  for (const ControlPoint& point : points) EXPECT_EQ(point.disparity, 5) << point.x << ' ' << point.y;
+}
+
 TEST(DepthEdges, OnlyTheFarSideLiesBehindOne) {
   Image<float> disparity(20, 3, 1);
   for (int y = 0; y < 3; ++y)
