@@ -186,7 +186,7 @@ TEST(RenderParticles, AreKeptByTheMemoryOfThoseThatAreChosenInWhateverOrder) {
   const std::size_t numbers = points.size();
   for (std::size_t i = 0; i < 3 * numbers; ++i) points.push_back(points[i % numbers] + away);
   write_whole_file(folder / "first.ply", as_ply(points));
-  std::ranges::rotate(points, points.begin() + static_cast<std::ptrdiff_t>(numbers));
+  std::rotate(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(numbers), points.end());
   write_whole_file(folder / "last.ply", as_ply(points));
   const std::size_t bytes = numbers * sizeof(float);
   for (const char* name : {"first.ply", "last.ply"}) {
