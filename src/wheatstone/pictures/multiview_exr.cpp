@@ -136,12 +136,18 @@ class OpenedViews {
   /// Calls `take(y, line, stride)` with all channels of each row, pixel after pixel.
   template <class Take>
   void read_rows(Take take) {
+    constexpr int rows_at_a_time = 64;  // OpenImageIO takes 64 MB anew for each reading, however little is read
     const auto stride = static_cast<std::size_t>(reader_->picture().channels);
-    std::vector<float> line(static_cast<std::size_t>(width()) * stride);
-    for (int y = 0; y < height(); ++y) {
-      if (!reader_->read(y, 1, reader_->picture().channels, line.data()))
+    const std::size_t numbers_a_row = static_cast<std::size_t>(width()) * stride;
+    std::vector<float> lines(numbers_a_row * static_cast<std::size_t>(std::min(rows_at_a_time, height())));
+    for (int top = 0; top < height(); top += rows_at_a_time) {
+      const int rows = std::min(rows_at_a_time, height() - top);
+      if (!reader_->read(top, rows, reader_->picture().channels, lines.data()))
         refuse(fmt::format("is damaged or cut short: {}", reader_->complaint()));
-      take(y, std::span<const float>(line), stride);
+      for (int row = 0; row < rows; ++row)
+        take(top + row,
+             std::span<const float>(lines).subspan(static_cast<std::size_t>(row) * numbers_a_row, numbers_a_row),
+             stride);
     }
   }
 
