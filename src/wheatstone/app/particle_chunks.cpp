@@ -269,11 +269,10 @@ Chunks chunks_from(const SurveyedParticles& surveyed, const std::filesystem::pat
       for (const Cloud& chunk : surveyed.kept) visit(chunk);
     };
   return [&](const std::function<void(const Cloud&)>& visit) {
-    for_each_chunk(file, options, "drawing", progress,
-                   [&](Cloud& chunk, std::span<const RoundShare> /*round*/, std::optional<std::uint64_t> /*in_file*/) {
-                     if (surveyed.density == DensitySource::grid) surveyed.statistics.grid->put_densities(chunk);
-                     visit(chunk);
-                   });
+    for_each_chunk(file, options, "drawing", progress, [&](Cloud& chunk, const auto&...) {
+      if (surveyed.density == DensitySource::grid) surveyed.statistics.grid->put_densities(chunk);
+      visit(chunk);
+    });
   };
 }
 
