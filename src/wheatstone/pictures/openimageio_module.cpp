@@ -110,17 +110,24 @@ class Reader : public PictureReader {
     return true;
   }
   bool read(std::uint8_t* to) override {
-    return input_->read_image(input_->current_subimage(), 0, 0, picture_.channels, OIIO::TypeDesc::UINT8, to);
+    return input_->read_image(input_->current_subimage(), 0, 0, picture_.channels, asked(OIIO::TypeDesc::UINT8), to);
   }
   bool read(int first_row, int rows, int channels, float* to) override {
     const int part = input_->current_subimage();
-    if (rows == picture_.height) return input_->read_image(part, 0, 0, channels, OIIO::TypeDesc::FLOAT, to);
+    const OIIO::TypeDesc type = asked(OIIO::TypeDesc::FLOAT);
+    if (rows == picture_.height) return input_->read_image(part, 0, 0, channels, type, to);
     const int top = picture_.top + first_row;
-    return input_->read_scanlines(part, 0, top, top + rows, 0, 0, channels, OIIO::TypeDesc::FLOAT, to);
+    return input_->read_scanlines(part, 0, top, top + rows, 0, 0, channels, type, to);
   }
   std::string complaint() override { return input_->geterror(); }
 
  private:
+  /// OpenImageIO 2.4 converts by way of 64 MB, even from a type to itself; UNKNOWN asks for the type that is stored.
+  OIIO::TypeDesc asked(OIIO::TypeDesc type) const {
+    const OIIO::ImageSpec& spec = input_->spec();
+    return spec.format == type && spec.channelformats.empty() ? OIIO::TypeDesc(OIIO::TypeDesc::UNKNOWN) : type;
+  }
+
   std::unique_ptr<OIIO::ImageInput> input_;
   StoredPicture picture_;
 };
