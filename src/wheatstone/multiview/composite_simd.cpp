@@ -164,7 +164,7 @@ struct ViewGroup {
 
 /// As many views from `first` on as a block so wide can serve.
 ViewGroup group_from(std::size_t first, const Compositing& compositing, int widest) {
-  const int taps = taps_of(compositing.resampling);
+  const int taps = taps_of(compositing.filter);
   const float gain = compositing.focus ? compositing.focus->gain : 1;
   ViewGroup group{.first = first, .end = first, .moves = {}, .shifts = {}, .reach = {}};
   for (; group.end < compositing.views.size(); ++group.end) {
@@ -175,9 +175,9 @@ ViewGroup group_from(std::size_t first, const Compositing& compositing, int wide
     for (std::size_t plane = 0; plane < compositing.parallaxes.size(); ++plane) {
       const float pixels = (central_view - compositing.views[group.end]) * compositing.parallaxes[plane];
       const float share = compositing.shares.empty() ? 1 : compositing.shares[group.end][plane];
-      Shift shift = shift_of(pixels, compositing.resampling);
+      Shift shift = shift_of(pixels, compositing.filter);
       for (float& weight : shift.weight) weight *= share;
-      const int in_focus = shift_of(pixels * gain, compositing.resampling).whole;
+      const int in_focus = shift_of(pixels * gain, compositing.filter).whole;
       if (group.end == first) reach.push_back({shift.whole, shift.whole + taps - 1});
       reach[plane] = {std::min({reach[plane][0], shift.whole, in_focus}),
                       std::max({reach[plane][1], shift.whole + taps - 1, in_focus + taps - 1})};
@@ -240,8 +240,8 @@ void composite_band(const BandOfPictures& band, std::span<const ViewTarget> targ
 
 /// Calls `call` with how many pixels are read for one as a constant.
 template <class Call>
-void for_taps(Resampling resampling, Call call) {
-  switch (taps_of(resampling)) {
+void for_taps(SliceFilter filter, Call call) {
+  switch (taps_of(filter)) {
     case 1:
       return call(std::integral_constant<int, 1>());
     case 2:
@@ -253,9 +253,7 @@ void for_taps(Resampling resampling, Call call) {
 
 void composite_views(const SliceBand& slices, const Compositing& compositing, const ToneMap& map, int top,
                      std::span<const ViewTarget> targets) {
-  for_taps(compositing.resampling, [&](auto taps) {
-    composite_band<taps()>({slices, compositing, map, top}, targets);
-  });
+  for_taps(compositing.filter, [&](auto taps) { composite_band<taps()>({slices, compositing, map, top}, targets); });
 }
 
 /// One colour of a block of a row: pixels move as their views do, and their gains.
@@ -297,9 +295,7 @@ void composite_sub_pixels(const BandOfPictures& band, const Interleaved& to) {
 
 void composite_interleaved(const SliceBand& slices, const Compositing& compositing, const ToneMap& map, int top,
                            const Interleaved& to) {
-  for_taps(compositing.resampling, [&](auto taps) {
-    composite_sub_pixels<taps()>({slices, compositing, map, top}, to);
-  });
+  for_taps(compositing.filter, [&](auto taps) { composite_sub_pixels<taps()>({slices, compositing, map, top}, to); });
 }
 
 }  // namespace wheatstone::HWY_NAMESPACE

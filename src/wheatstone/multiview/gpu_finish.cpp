@@ -141,9 +141,9 @@ void finish_on_gpu(const GpuPictures& pictures, const ToneMap& tone,
   });
 }
 
-GpuCompositor::GpuCompositor(const GpuPictures& planes, LightOnGpu light, Resampling resampling,
+GpuCompositor::GpuCompositor(const GpuPictures& planes, LightOnGpu light, SliceFilter filter,
                              std::optional<Focus> focus)
-    : planes_(planes), groups_(std::move(light.groups)), resampling_(resampling), focus_(focus) {
+    : planes_(planes), groups_(std::move(light.groups)), filter_(filter), focus_(focus) {
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     std::vector<int>& first_texel = first_texel_.emplace_back();
     int texels = 0;
@@ -161,7 +161,7 @@ GpuCompositor::GpuCompositor(const GpuPictures& planes, LightOnGpu light, Resamp
 const GpuProgram& GpuCompositor::program() const {
   const GpuDefine channels{"CHANNELS", planes_.channels};
   if (focus_) return kept_program(composite_planes_source, {{"STEP", moves_in_focus}, channels});
-  return kept_program(composite_planes_source, {{"STEP", moves}, channels, {"TAPS", taps_of(resampling_) > 2 ? 4 : 2}});
+  return kept_program(composite_planes_source, {{"STEP", moves}, channels, {"TAPS", taps_of(filter_) > 2 ? 4 : 2}});
 }
 
 GpuBuffer GpuCompositor::composite(std::size_t picture, const GpuPictures& of_views,
@@ -172,7 +172,7 @@ GpuBuffer GpuCompositor::composite(std::size_t picture, const GpuPictures& of_vi
                      .rows = order.rows,
                      .left = planes_.left[picture],
                      .texels_a_row = texels_a_row(planes_, picture),
-                     .taps = taps_of(resampling_),
+                     .taps = taps_of(filter_),
                      .first_parallax = order.first * order.scale,
                      .plane_spacing = order.spacing};
   if (const std::optional<Focus> focus = focus_in(focus_, order)) {

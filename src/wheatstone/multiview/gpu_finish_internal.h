@@ -31,7 +31,7 @@ void finish_on_gpu(const GpuPictures& pictures, const ToneMap& tone,
 /// Composites views from the light of depth planes. Made and used within on_gpu().
 class GpuCompositor {
  public:
-  GpuCompositor(const GpuPictures& planes, LightOnGpu light, Resampling resampling, std::optional<Focus> focus);
+  GpuCompositor(const GpuPictures& planes, LightOnGpu light, SliceFilter filter, std::optional<Focus> focus);
   /// The light of a picture's views.
   GpuBuffer composite(std::size_t picture, const GpuPictures& of_views, std::span<const ViewPosition> views) const;
 
@@ -40,7 +40,7 @@ class GpuCompositor {
 
   const GpuPictures& planes_;
   std::vector<TargetGroup> groups_;
-  Resampling resampling_;
+  SliceFilter filter_;
   std::optional<Focus> focus_;
   std::vector<GpuBuffer> packed_;              // [group]
   std::vector<std::vector<int>> first_texel_;  // [group][picture]: where plane 0 would lie

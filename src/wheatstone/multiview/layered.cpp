@@ -25,17 +25,6 @@ DepthPlanes planes_of(const DepthMapping& mapping, int count, float span) {
   return planes;
 }
 
-Resampling resampling_of(SliceFilter filter) {
-  switch (filter) {
-    case SliceFilter::nearest:
-      return Resampling::nearest;
-    case SliceFilter::linear:
-      return Resampling::linear;
-    default:
-      return Resampling::cubic;
-  }
-}
-
 Window window_around(const Scene& scene, const Rig& rig, float gain) {
   const float around = std::ceil(look_around_px(scene, rig) * gain) + 2;
   return {.left = -around, .right = static_cast<float>(rig.width) + around, .height = rig.height};
@@ -156,12 +145,6 @@ PlanesOfViews keep(const RenderJob& job, const SplatOrders& orders, const Window
   return planes;
 }
 
-/// Where a picture of all views goes, and how its planes are read.
-struct PictureOfViews {
-  Resampling resampling;
-  std::span<const ViewTarget> targets;
-};
-
 /// The memory in which one thread works.
 struct Workplace {
   PlaneFiller filler;
@@ -183,8 +166,8 @@ std::vector<std::vector<float>> shares_of_planes(const PlanesOfViews& planes, co
 }
 
 /// Composites one of the pictures of all views.
-void composite_picture(const RenderJob& job, const SplatOrders& orders, std::size_t picture, PlanesOfViews& planes,
-                       const PictureOfViews& to) {
+void composite_picture(const RenderJob& job, SliceFilter filter, const SplatOrders& orders, std::size_t picture,
+                       PlanesOfViews& planes, std::span<const ViewTarget> targets) {
   const SplatOrder& order = orders[picture];
   const Window window = window_in(window_of_planes(job), order);
   const int sets = static_cast<int>(planes.kept.size());
@@ -193,7 +176,7 @@ void composite_picture(const RenderJob& job, const SplatOrders& orders, std::siz
     for (int plane = 0; plane < order.parts; ++plane)
       parallaxes.push_back(order.first * order.scale + static_cast<float>(plane) * order.spacing);
   const std::vector<std::vector<float>> shares = shares_of_planes(planes, job.rig, order.parts);
-  const Compositing compositing{parallaxes, job.rig.positions, to.resampling, focus_in(job.focus, order), shares};
+  const Compositing compositing{parallaxes, job.rig.positions, filter, focus_in(job.focus, order), shares};
   tbb::enumerable_thread_specific<Workplace> workplaces([&] {
     return Workplace{
         PlaneFiller(window, order, deposit_of(job.scene.splat_style)),
@@ -208,7 +191,7 @@ void composite_picture(const RenderJob& job, const SplatOrders& orders, std::siz
         work.slices.take(set * order.parts + plane,
                          kept.light ? kept.light->band(picture, b, plane) : work.filler.fill(kept.splats, b, plane));
     }
-    if (!to.targets.empty()) composite(work.slices, compositing, job.tone, b * order.band_rows, to.targets);
+    if (!targets.empty()) composite(work.slices, compositing, job.tone, b * order.band_rows, targets);
   });
 }
 
@@ -221,7 +204,7 @@ void render_layered(const RenderJob& job, const DepthPlanes& planes, SliceFilter
   ViewPyramid pyramid(orders, job.rig, pictures.size(), job.tone.three_channels());
   for (std::size_t p = orders.size(); p-- > 0;) {
     const std::vector<ViewTarget> targets = pyramid.targets(p, pictures);
-    composite_picture(job, orders, p, kept, {resampling_of(filter), targets});
+    composite_picture(job, filter, orders, p, kept, targets);
     pyramid.share(p, targets, job.ranks);
   }
 }

@@ -31,9 +31,9 @@ struct Shift {
   std::array<float, 4> weight;
 };
 
-Shift shift_of(float pixels, Resampling resampling) {
+Shift shift_of(float pixels, SliceFilter filter) {
   Shift shift{};
-  if (resampling == Resampling::nearest) {
+  if (filter == SliceFilter::nearest) {
     shift.whole = static_cast<int>(std::floor(pixels + 0.5f));
     shift.weight[0] = 1;
     return shift;
@@ -41,7 +41,7 @@ Shift shift_of(float pixels, Resampling resampling) {
   const float whole = std::floor(pixels);
   const float f = pixels - whole;
   shift.whole = static_cast<int>(whole);
-  if (resampling == Resampling::linear) {
+  if (filter == SliceFilter::linear) {
     shift.weight = {1 - f, f, 0, 0};
     return shift;
   }

@@ -14,6 +14,7 @@
 #include "wheatstone/multiview/chunks.h"
 #include "wheatstone/multiview/focus.h"
 #include "wheatstone/multiview/scene.h"
+#include "wheatstone/multiview/slice_stack.h"
 #include "wheatstone/multiview/tone.h"
 #include "wheatstone/particles/cloud.h"
 #include "wheatstone/progress.h"
@@ -34,14 +35,6 @@ constexpr std::string_view name_of(Method method) {
   constexpr std::array<std::string_view, 4> names{"auto", "exact", "incremental", "layered"};
   return names[static_cast<std::size_t>(method)];
 }
-
-/// How depth planes are filled and read.
-enum class SliceFilter {
-  nearest,   ///< a splat goes to its nearest plane, and planes move by whole pixels
-  linear,    ///< planes are interpolated between two pixels
-  centroid,  ///< a splat between planes goes to both, by its distance, so that its middle is right in every view;
-             ///< planes are interpolated by a cubic
-};
 
 struct RenderOptions {
   Method method = Method::automatic;

@@ -70,8 +70,7 @@ void render_layered_on_gpu(const RenderJob& job, const DepthPlanes& planes, Slic
     const GpuPictures sizes = pictures_of_views(job, orders);
     const GpuPictures of_planes = gpu_pictures(orders, window_of_planes(job), sizes.channels);
     const GpuTargets targets = filter == SliceFilter::centroid ? GpuTargets::between_planes : GpuTargets::nearest_plane;
-    const GpuCompositor compositor(of_planes, light_on_gpu(job, facts, of_planes, targets, {}), resampling_of(filter),
-                                   job.focus);
+    const GpuCompositor compositor(of_planes, light_on_gpu(job, facts, of_planes, targets, {}), filter, job.focus);
     for_some_views(job, pictures, views_that_fit(sizes, sizeof(float), facts.largest_buffer),
                    [&](const SomeViews& views) {
                      std::optional<GpuBuffer> composited;

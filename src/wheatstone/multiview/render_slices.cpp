@@ -70,9 +70,9 @@ float largest_shift_px(const SliceStack& stack, std::span<const ViewPosition> vi
 
 /// How slices are interpolated between their pixels. Opaque edges stay sharp. Slices with alpha are not read by cubic
 /// weights, which can be negative.
-Resampling resampling_for(const Hiding& hiding, SliceFilter filter) {
-  if (!hiding.any) return resampling_of(filter);
-  return hiding.sharp || filter == SliceFilter::nearest ? Resampling::nearest : Resampling::linear;
+SliceFilter filter_for(const Hiding& hiding, SliceFilter filter) {
+  if (!hiding.any) return filter;
+  return hiding.sharp || filter == SliceFilter::nearest ? SliceFilter::nearest : SliceFilter::linear;
 }
 
 /// Calls `take` with the slices of every band, and its first row, in parallel.
@@ -113,7 +113,7 @@ std::vector<Image<Rgb8>> render_slices(const SliceStack& stack, const Rig& rig, 
   for (Image<Rgb8>& view : views) targets.push_back({.picture = view});
   const Hiding hiding = hiding_of(stack);
   const std::vector<float> parallaxes = parallaxes_of(stack);
-  const Compositing compositing{parallaxes, rig.positions, resampling_for(hiding, filter), focus};
+  const Compositing compositing{parallaxes, rig.positions, filter_for(hiding, filter), focus};
   const ToneMap tone(stack.tone);
   for_each_slice_band(stack, shift, hiding.any,
                       [&](const SliceBand& slices, int top) { composite(slices, compositing, tone, top, targets); });
@@ -127,9 +127,10 @@ InterleavedView render_interleaved(const SliceStack& stack, std::span<const View
   const float shift = checked_shift(stack, views, focus);
   InterleavedView result{.picture = Image<Rgb8>(stack.width, stack.height), .composited = 0};
   const std::vector<float> parallaxes = parallaxes_of(stack);
-  const Compositing compositing{parallaxes, views, Resampling::linear, focus};
+  const Hiding hiding = hiding_of(stack);
+  const Compositing compositing{parallaxes, views, filter_for(hiding, SliceFilter::linear), focus};
   const ToneMap tone(stack.tone);
-  for_each_slice_band(stack, shift, hiding_of(stack).any, [&](const SliceBand& slices, int top) {
+  for_each_slice_band(stack, shift, hiding.any, [&](const SliceBand& slices, int top) {
     composite(slices, compositing, tone, top, {result.picture, views_of_row});
   });
   result.composited = 3 * static_cast<std::uint64_t>(stack.width) * stack.height;

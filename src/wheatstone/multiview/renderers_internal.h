@@ -32,8 +32,6 @@ struct DepthPlanes {
 /// these are farther apart.
 DepthPlanes planes_of(const DepthMapping& mapping, int count, float span = 1);
 
-Resampling resampling_of(SliceFilter filter);
-
 /// The enlarged frustum: whatever any view of the rig sees (Hassaine 2010, sec. 4.3.1), in whole pixels, where depth is
 /// multiplied by up to `gain`.
 Window window_around(const Scene& scene, const Rig& rig, float gain = 1);

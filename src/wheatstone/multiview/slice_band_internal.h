@@ -9,6 +9,7 @@
 #include "wheatstone/image/image.h"
 #include "wheatstone/multiview/focus.h"
 #include "wheatstone/multiview/light_band_internal.h"
+#include "wheatstone/multiview/slice_stack.h"
 #include "wheatstone/multiview/tone_map_internal.h"
 #include "wheatstone/multiview/view_light_internal.h"
 
@@ -70,11 +71,9 @@ class SliceBand {
   std::vector<std::uint8_t> lit_;  // [plane][row][chunk]
 };
 
-/// How a slice is read between its pixels.
-enum class Resampling { nearest, linear, cubic };
-/// Pixels that are read for one.
-constexpr int taps_of(Resampling resampling) {
-  return resampling == Resampling::nearest ? 1 : resampling == Resampling::linear ? 2 : 4;
+/// Pixels of a plane that are read for one.
+constexpr int taps_of(SliceFilter filter) {
+  return filter == SliceFilter::nearest ? 1 : filter == SliceFilter::linear ? 2 : 4;
 }
 
 /// The parameters of compositing. Slices are added; slices with alpha are blended front to back, from the first to the
@@ -82,7 +81,7 @@ constexpr int taps_of(Resampling resampling) {
 struct Compositing {
   std::span<const float> parallaxes;  ///< of the planes, in pixels
   std::span<const ViewPosition> views;
-  Resampling resampling = Resampling::cubic;
+  SliceFilter filter = SliceFilter::centroid;
   /// The area in which the depth differs, in pixels of the picture that is made; empty: none.
   std::optional<Focus> focus = {};
   std::span<const std::vector<float>> shares = {};  ///< [view][plane]: how much of a plane a view sees; empty: all

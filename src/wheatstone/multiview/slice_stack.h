@@ -32,4 +32,12 @@ struct SliceStack {
   std::vector<Slice> slices;         ///< nearest first: parallax ascends
 };
 
+/// How depth planes are filled with splats, and read between their pixels.
+enum class SliceFilter {
+  nearest,   ///< a splat goes to its nearest plane, and planes move by whole pixels
+  linear,    ///< planes are interpolated between two pixels
+  centroid,  ///< a splat between planes goes to both, by its distance, so that its middle is right in every view;
+             ///< planes are interpolated by a cubic
+};
+
 }  // namespace wheatstone
