@@ -82,14 +82,15 @@ HWY_INLINE bool take_chunk(float* from, int channels, std::uint16_t* to, std::pt
 }
 
 /// `lit` says which chunks of the plane's rows hold light.
-void take_plane(LightBand& band, std::uint16_t* to, std::ptrdiff_t stride, bool alpha, std::uint8_t* lit) {
+void take_plane(LightBand& band, std::uint16_t* to, std::ptrdiff_t stride, bool alpha, std::span<std::uint8_t> lit) {
   const int channels = band.channels();
   // Rows of both are longer than they must be.
   const int width = std::min(band.width_with_margins(), static_cast<int>(stride));
-  for (int row = 0; row < band.rows(); ++row, to += (alpha ? 4 : 3) * stride, lit += stride / SliceBand::chunk_width) {
+  const auto chunks = static_cast<std::size_t>(stride / SliceBand::chunk_width);
+  for (int row = 0; row < band.rows(); ++row, to += (alpha ? 4 : 3) * stride, lit = lit.subspan(chunks)) {
     float* const from = band.row(row) - LightBand::margin * channels;
     for (int x = 0; x < width; x += SliceBand::chunk_width) {
-      std::uint8_t& chunk = lit[x / SliceBand::chunk_width];
+      std::uint8_t& chunk = lit[static_cast<std::size_t>(x / SliceBand::chunk_width)];
       chunk = take_chunk(from + x * channels, channels, to + x, stride, alpha, chunk != 0);
     }
   }
@@ -313,7 +314,7 @@ void SliceBand::take(int plane, LightBand& band) {
   const std::span<std::uint8_t> lit = lit_of(plane);
   const auto is_lit = [](std::uint8_t chunk) { return chunk != 0; };
   if (!band.lit() && std::ranges::none_of(lit, is_lit)) return;
-  HWY_DYNAMIC_DISPATCH(take_plane)(band, row(plane, 0, 0) - margin(), stride_, hides(), lit.data());
+  HWY_DYNAMIC_DISPATCH(take_plane)(band, row(plane, 0, 0) - margin(), stride_, hides(), lit);
   band.note_dark();
 }
 
