@@ -65,7 +65,7 @@ AnimatedWebp::AnimatedWebp(std::filesystem::path path)
   facts_.duration_s = static_cast<double>(total_ms) / 1000;
   facts_.frame_count = static_cast<std::int64_t>(durations_ms_.size());
   if (total_ms > 0)
-    facts_.frame_rate = from_av(av_d2q(static_cast<double>(*facts_.frame_count) / facts_.duration_s, 1000));
+    facts_.frame_rate = from_av(libav().av_d2q(static_cast<double>(*facts_.frame_count) / facts_.duration_s, 1000));
 }
 
 bool AnimatedWebp::step() {

@@ -10,8 +10,6 @@
 
 extern "C" {
 #include <libavutil/display.h>
-#include <libavutil/opt.h>
-#include <libavutil/pixdesc.h>
 }
 
 #include "wheatstone/files/module.h"
@@ -25,7 +23,7 @@ namespace {
 constexpr std::int64_t most_pixels = std::int64_t{1} << 28;
 
 std::string tag_of(const AVDictionary* tags, const char* key) {
-  const AVDictionaryEntry* entry = av_dict_get(tags, key, nullptr, 0);
+  const AVDictionaryEntry* entry = libav().av_dict_get(tags, key, nullptr, 0);
   return entry == nullptr ? "" : entry->value;
 }
 
@@ -37,7 +35,7 @@ std::vector<SideStream> side_streams_of(const AVFormatContext& input) {
     if (type != AVMEDIA_TYPE_AUDIO && type != AVMEDIA_TYPE_SUBTITLE) continue;
     found.push_back({.index = static_cast<int>(i),
                      .kind = type == AVMEDIA_TYPE_AUDIO ? "audio" : "subtitles",
-                     .codec = avcodec_get_name(stream.codecpar->codec_id),
+                     .codec = libav().avcodec_get_name(stream.codecpar->codec_id),
                      .language = tag_of(stream.metadata, "language"),
                      .channels = stream.codecpar->ch_layout.nb_channels,
                      .sample_rate = stream.codecpar->sample_rate});
@@ -78,42 +76,42 @@ void DecodedFilm::open() {
 }
 
 void DecodedFilm::open_decoder(const AVStream& stream) {
-  const char* name = avcodec_get_name(stream.codecpar->codec_id);
-  const AVCodec* codec = avcodec_find_decoder(stream.codecpar->codec_id);
+  const char* name = libav().avcodec_get_name(stream.codecpar->codec_id);
+  const AVCodec* codec = libav().avcodec_find_decoder(stream.codecpar->codec_id);
   if (codec == nullptr) {
     const std::string known = stream.codecpar->codec_id == AV_CODEC_ID_NONE ? "unknown" : name;
     refuse_film(path_, fmt::format("its video codec is {}, which cannot be decoded", known));
   }
-  decoder_.reset(avcodec_alloc_context3(codec));
+  decoder_.reset(libav().avcodec_alloc_context3(codec));
   if (!decoder_) throw std::bad_alloc();
-  int error = avcodec_parameters_to_context(decoder_.get(), stream.codecpar);
+  int error = libav().avcodec_parameters_to_context(decoder_.get(), stream.codecpar);
   decoder_->pkt_timebase = stream.time_base;
   decoder_->thread_count = threads_;
   decoder_->max_pixels = most_pixels;
-  if (error >= 0) error = avcodec_open2(decoder_.get(), codec, nullptr);
+  if (error >= 0) error = libav().avcodec_open2(decoder_.get(), codec, nullptr);
   if (error < 0) refuse_film(path_, fmt::format("its {} pictures cannot be decoded: {}", name, libav_reason(error)));
 }
 
 void DecodedFilm::gather_facts() {
   const AVCodecParameters& coded = *stream_->codecpar;
-  const char* format = av_get_pix_fmt_name(static_cast<AVPixelFormat>(ahead_->format));
+  const char* format = libav().av_get_pix_fmt_name(static_cast<AVPixelFormat>(ahead_->format));
   stored_width_ = ahead_->width;
   stored_height_ = ahead_->height;
   if (stream_->side_data != nullptr) {
     std::size_t size = 0;
-    const std::uint8_t* matrix = av_stream_get_side_data(stream_, AV_PKT_DATA_DISPLAYMATRIX, &size);
+    const std::uint8_t* matrix = libav().av_stream_get_side_data(stream_, AV_PKT_DATA_DISPLAYMATRIX, &size);
     if (matrix != nullptr && size >= 9 * sizeof(std::int32_t)) {
       orientation_ = orientation_of(reinterpret_cast<const std::int32_t*>(matrix));
     }
   }
 
   facts_.container = container_of(input_->iformat->name, path_);
-  facts_.codec = avcodec_get_name(coded.codec_id);
+  facts_.codec = libav().avcodec_get_name(coded.codec_id);
   facts_.pixel_format = format == nullptr ? "" : format;
   facts_.width = orientation_.swaps_sides() ? stored_height_ : stored_width_;
   facts_.height = orientation_.swaps_sides() ? stored_width_ : stored_height_;
   facts_.rotation_degrees = orientation_.degrees();
-  const AVRational aspect = av_guess_sample_aspect_ratio(input_.get(), stream_, ahead_.get());
+  const AVRational aspect = libav().av_guess_sample_aspect_ratio(input_.get(), stream_, ahead_.get());
   facts_.pixel_aspect = aspect.num > 0 && aspect.den > 0 ? from_av(aspect) : Rational{1, 1};
   facts_.frame_rate = from_av(stream_->avg_frame_rate.num > 0 ? stream_->avg_frame_rate : stream_->r_frame_rate);
   facts_.time_base = from_av(stream_->time_base);
@@ -129,14 +127,14 @@ void DecodedFilm::gather_facts() {
 void DecodedFilm::gather_layout() {
   const AVRational aspect = as_av(facts_.pixel_aspect);
   std::size_t size = 0;
-  const std::uint8_t* of_stream = av_stream_get_side_data(stream_, AV_PKT_DATA_STEREO3D, &size);
+  const std::uint8_t* of_stream = libav().av_stream_get_side_data(stream_, AV_PKT_DATA_STEREO3D, &size);
   if (of_stream != nullptr && size >= sizeof(AVStereo3D)) {
     facts_.layout = layout_of(*reinterpret_cast<const AVStereo3D*>(of_stream), stored_width_, stored_height_, aspect);
     facts_.layout_how = facts_.container == "mp4" || facts_.container == "mov" ? "the container's stereo box"
                                                                                : "the container's stereo mode";
     return;
   }
-  const AVFrameSideData* of_frame = av_frame_get_side_data(ahead_.get(), AV_FRAME_DATA_STEREO3D);
+  const AVFrameSideData* of_frame = libav().av_frame_get_side_data(ahead_.get(), AV_FRAME_DATA_STEREO3D);
   if (of_frame == nullptr) return;
   facts_.layout =
       layout_of(*reinterpret_cast<const AVStereo3D*>(of_frame->data), stored_width_, stored_height_, aspect);
@@ -165,8 +163,8 @@ void DecodedFilm::seek_before(double seconds) {
   const auto target = static_cast<std::int64_t>(std::floor(seconds / av_q2d(stream_->time_base)));
   if (time_ahead_ && time_ahead_->pts >= target) return;
   searched_ = true;
-  if (av_seek_frame(input_.get(), stream_->index, target, AVSEEK_FLAG_BACKWARD) >= 0) {
-    avcodec_flush_buffers(decoder_.get());
+  if (libav().av_seek_frame(input_.get(), stream_->index, target, AVSEEK_FLAG_BACKWARD) >= 0) {
+    libav().avcodec_flush_buffers(decoder_.get());
     decode_afresh();
     if (time_ahead_ && time_ahead_->pts <= target) return;
   }
@@ -199,13 +197,13 @@ bool DecodedFilm::step() {
 /// The next packet of the pictures, which is to be given back. False where none follows.
 bool DecodedFilm::read_packet() {
   while (true) {
-    const int error = av_read_frame(input_.get(), packet_.get());
+    const int error = libav().av_read_frame(input_.get(), packet_.get());
     if (error < 0) {
       if (error != AVERROR_EOF) read_error_ = error;
       return false;
     }
     if (packet_->stream_index == stream_->index) break;
-    av_packet_unref(packet_.get());
+    libav().av_packet_unref(packet_.get());
   }
   ++packets_;
   // Packets come in the order of decoding.
@@ -218,17 +216,17 @@ bool DecodedFilm::read_packet() {
 void DecodedFilm::feed() {
   if (!read_packet()) {
     fed_all_ = true;
-    avcodec_send_packet(decoder_.get(), nullptr);
+    libav().avcodec_send_packet(decoder_.get(), nullptr);
     return;
   }
   const bool is_corrupt = (packet_->flags & AV_PKT_FLAG_CORRUPT) != 0;
-  const bool is_refused = avcodec_send_packet(decoder_.get(), packet_.get()) == AVERROR_INVALIDDATA;
+  const bool is_refused = libav().avcodec_send_packet(decoder_.get(), packet_.get()) == AVERROR_INVALIDDATA;
   if (is_corrupt || is_refused) ++damaged_;
-  av_packet_unref(packet_.get());
+  libav().av_packet_unref(packet_.get());
 }
 
 void DecodedFilm::pass_over_rest() {
-  while (!fed_all_ && read_packet()) av_packet_unref(packet_.get());
+  while (!fed_all_ && read_packet()) libav().av_packet_unref(packet_.get());
   time_ = latest_;
   time_ahead_.reset();
   at_end_ = true;
@@ -249,7 +247,7 @@ int DecodedFilm::receive() {
       const int error = deinterlacer_->receive(*ahead_);
       if (error != AVERROR(EAGAIN)) return error;
     }
-    const int error = avcodec_receive_frame(decoder_.get(), ahead_.get());
+    const int error = libav().avcodec_receive_frame(decoder_.get(), ahead_.get());
     if (error == 0 && !deinterlacer_ && (facts_.interlaced || ahead_->interlaced_frame != 0)) open_deinterlacer();
     if (!deinterlacer_ || (error < 0 && error != AVERROR_EOF)) return error;
     const int sent = deinterlacer_->send(error == 0 ? ahead_.get() : nullptr);
@@ -280,7 +278,7 @@ void DecodedFilm::look_ahead() {
 std::int64_t DecodedFilm::usual_duration(std::int64_t said) const {
   const AVRational rate = stream_->avg_frame_rate;
   if (said > 0 || rate.num <= 0) return std::max<std::int64_t>(0, said);
-  return av_rescale_q(1, av_inv_q(rate), stream_->time_base);
+  return libav().av_rescale_q(1, av_inv_q(rate), stream_->time_base);
 }
 
 FrameTime DecodedFilm::time_of(const AVFrame& frame) const {

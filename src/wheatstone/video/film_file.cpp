@@ -85,19 +85,19 @@ std::vector<std::string> side_streams_left_out(const std::filesystem::path& path
   std::vector<std::string> notes;
   const Container container = container_of(path);
   if (options.side_streams_from.empty() || container == Container::other) return notes;
-  silence_libav();
   AVFormatContext* output = nullptr;
-  if (avformat_alloc_output_context2(&output, nullptr, format_of(container), nullptr) < 0) throw std::bad_alloc();
-  const std::unique_ptr<AVFormatContext, decltype(&avformat_free_context)> owned(output, &avformat_free_context);
+  if (libav().avformat_alloc_output_context2(&output, nullptr, format_of(container), nullptr) < 0)
+    throw std::bad_alloc();
+  const std::unique_ptr<AVFormatContext, decltype(LibavFunctions::avformat_free_context)> owned(
+      output, libav().avformat_free_context);
   const SideStreams streams(options, *output, notes);
   return notes;
 }
 
 FilmFile::FilmFile(std::filesystem::path path, const FilmWriterOptions& options, std::vector<std::string>& notes)
     : path_(std::move(path)), options_(options), file_(path_), notes_(notes) {
-  silence_libav();
   const int error =
-      avformat_alloc_output_context2(&output_, nullptr, format_of(container_of(path_)), file_.path().c_str());
+      libav().avformat_alloc_output_context2(&output_, nullptr, format_of(container_of(path_)), file_.path().c_str());
   if (error < 0) fail_to_write_film(path_, error);
   // The same input gives the same bytes; and stereo boxes and some codecs in MP4 count as experiments.
   output_->flags |= AVFMT_FLAG_BITEXACT;
@@ -106,8 +106,8 @@ FilmFile::FilmFile(std::filesystem::path path, const FilmWriterOptions& options,
 
 FilmFile::~FilmFile() {
   side_streams_.reset();
-  if (output_->pb != nullptr) avio_closep(&output_->pb);
-  avformat_free_context(output_);
+  if (output_->pb != nullptr) libav().avio_closep(&output_->pb);
+  libav().avformat_free_context(output_);
 }
 
 void FilmFile::check(int error) const {
@@ -115,8 +115,8 @@ void FilmFile::check(int error) const {
 }
 
 void FilmFile::begin(const AVCodecParameters& coded, Rational time_base, std::optional<Rational> rate) {
-  stream_ = avformat_new_stream(output_, nullptr);
-  if (stream_ == nullptr || avcodec_parameters_copy(stream_->codecpar, &coded) < 0) throw std::bad_alloc();
+  stream_ = libav().avformat_new_stream(output_, nullptr);
+  if (stream_ == nullptr || libav().avcodec_parameters_copy(stream_->codecpar, &coded) < 0) throw std::bad_alloc();
   const Container container = container_of(path_);
   stream_->codecpar->codec_tag = tag_of(coded, container);
   stream_->sample_aspect_ratio = coded.sample_aspect_ratio;
@@ -125,7 +125,7 @@ void FilmFile::begin(const AVCodecParameters& coded, Rational time_base, std::op
   if (rate) stream_->avg_frame_rate = as_av(*rate);
   shift_ = std::llround(options_.start_s / av_q2d(time_base_));
   say_layout(*stream_);
-  if (!options_.comment.empty()) av_dict_set(&output_->metadata, "comment", options_.comment.c_str(), 0);
+  if (!options_.comment.empty()) libav().av_dict_set(&output_->metadata, "comment", options_.comment.c_str(), 0);
   OwnedInput source;
   if (!options_.side_streams_from.empty()) {
     side_streams_.emplace(options_, *output_, notes_);
@@ -135,12 +135,12 @@ void FilmFile::begin(const AVCodecParameters& coded, Rational time_base, std::op
   }
   say_projection(source.get(), options_, *stream_);
 
-  check(avio_open(&output_->pb, ("file:" + file_.path().string()).c_str(), AVIO_FLAG_WRITE));
+  check(libav().avio_open(&output_->pb, ("file:" + file_.path().string()).c_str(), AVIO_FLAG_WRITE));
   AVDictionary* settings = nullptr;
   // The index in front: a film that arrives slowly, or not to its end, can be shown.
-  if (!is_matroska(container)) av_dict_set(&settings, "movflags", "+faststart", 0);
-  const int error = avformat_write_header(output_, &settings);
-  av_dict_free(&settings);
+  if (!is_matroska(container)) libav().av_dict_set(&settings, "movflags", "+faststart", 0);
+  const int error = libav().avformat_write_header(output_, &settings);
+  libav().av_dict_free(&settings);
   check(error);
 }
 
@@ -150,14 +150,14 @@ void FilmFile::say_layout(AVStream& stream) {
   const Container container = container_of(path_);
   const LayoutTraits& traits = traits_of(options_.layout);
   if (is_matroska(container) && (container != Container::webm || webm_can_say(traits.matroska))) {
-    av_dict_set(&stream.metadata, "stereo_mode", std::string(traits.matroska).c_str(), 0);
+    libav().av_dict_set(&stream.metadata, "stereo_mode", std::string(traits.matroska).c_str(), 0);
     return;
   }
   const bool in_box = container == Container::mp4 && !traits.right_first &&
                       (stereo->type == AV_STEREO3D_SIDEBYSIDE || stereo->type == AV_STEREO3D_TOPBOTTOM);
   const bool in_pictures = options_.codec == "h264" && frame_packing_of(options_.layout).has_value();
   if (in_box) {
-    std::uint8_t* data = av_stream_new_side_data(&stream, AV_PKT_DATA_STEREO3D, sizeof(AVStereo3D));
+    std::uint8_t* data = libav().av_stream_new_side_data(&stream, AV_PKT_DATA_STEREO3D, sizeof(AVStereo3D));
     if (data == nullptr) throw std::bad_alloc();
     std::memcpy(data, &*stereo, sizeof(AVStereo3D));
   } else if (!in_pictures) {
@@ -171,21 +171,21 @@ void FilmFile::add(AVPacket& packet) {
   if (packet.dts != AV_NOPTS_VALUE) packet.dts -= shift_;
   if (side_streams_) check(side_streams_->copy_until(static_cast<double>(packet.dts) * av_q2d(time_base_)));
   const std::int64_t pts = packet.pts;
-  av_packet_rescale_ts(&packet, time_base_, stream_->time_base);
-  if (!rounds_times_ && av_compare_ts(pts, time_base_, packet.pts, stream_->time_base) != 0) {
+  libav().av_packet_rescale_ts(&packet, time_base_, stream_->time_base);
+  if (!rounds_times_ && libav().av_compare_ts(pts, time_base_, packet.pts, stream_->time_base) != 0) {
     notes_.emplace_back("Matroska keeps times to the nearest millisecond");
     rounds_times_ = true;
   }
   packet.stream_index = stream_->index;
   packet.pos = -1;
-  check(av_interleaved_write_frame(output_, &packet));
+  check(libav().av_interleaved_write_frame(output_, &packet));
 }
 
 void FilmFile::finish() {
   if (side_streams_) check(side_streams_->copy_until({}));
-  check(av_write_trailer(output_));
+  check(libav().av_write_trailer(output_));
   check(output_->pb->error);
-  check(avio_closep(&output_->pb));
+  check(libav().avio_closep(&output_->pb));
   file_.commit();
 }
 

@@ -28,7 +28,7 @@ bool may_write_deep(const std::filesystem::path& path, const FilmWriterOptions& 
 }
 
 void keep_bits(const FilmFacts& source, const std::filesystem::path& path, FilmWriterOptions& options) {
-  if (frame_pattern(path) && takes_sixteen_bits(path) && is_deep(av_get_pix_fmt(source.pixel_format.c_str())))
+  if (frame_pattern(path) && takes_sixteen_bits(path) && is_deep(libav().av_get_pix_fmt(source.pixel_format.c_str())))
     options.pixel_format = sixteen_bits;
 }
 
@@ -51,7 +51,7 @@ struct FilmWriter::Implementation {
     const int width = frame.picture.width(), height = frame.picture.height();
     if (options.frame_rate.numerator <= 0 && frame.duration > 0) {
       const double rate = 1 / (static_cast<double>(frame.duration) * frame.time_base.value());
-      options.frame_rate = from_av(av_d2q(rate, 100000));
+      options.frame_rate = from_av(libav().av_d2q(rate, 100000));
     }
     encoder.emplace(options, width, height, frame.time_base);
     note_padding(frame.picture, encoder->context(), notes);

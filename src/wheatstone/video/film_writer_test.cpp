@@ -54,13 +54,13 @@ std::vector<SidePacket> side_packets(const fs::path& path, AVMediaType type) {
   const OwnedInput input = open_input(path);
   const OwnedPacket packet = new_packet();
   std::vector<SidePacket> found;
-  while (av_read_frame(input.get(), packet.get()) >= 0) {
+  while (libav().av_read_frame(input.get(), packet.get()) >= 0) {
     const AVStream& stream = *input->streams[packet->stream_index];
     if (stream.codecpar->codec_type == type) {
       found.push_back({{reinterpret_cast<const char*>(packet->data), static_cast<std::size_t>(packet->size)},
                        static_cast<double>(packet->pts) * av_q2d(stream.time_base)});
     }
-    av_packet_unref(packet.get());
+    libav().av_packet_unref(packet.get());
   }
   return found;
 }
@@ -369,9 +369,9 @@ TEST(FilmWriter, KeepsChaptersTimecodeAndTheSphere) {
     writer.finish();
     const OwnedInput read = open_input(folder / name);
     ASSERT_EQ(read->nb_chapters, 1u) << name;
-    EXPECT_STREQ(av_dict_get(read->chapters[0]->metadata, "title", nullptr, 0)->value, "two") << name;
+    EXPECT_STREQ(libav().av_dict_get(read->chapters[0]->metadata, "title", nullptr, 0)->value, "two") << name;
     EXPECT_NEAR(static_cast<double>(read->chapters[0]->end) * av_q2d(read->chapters[0]->time_base), 1, 0.01) << name;
-    const AVDictionaryEntry* timecode = av_dict_get(read->streams[0]->metadata, "timecode", nullptr, 0);
+    const AVDictionaryEntry* timecode = libav().av_dict_get(read->streams[0]->metadata, "timecode", nullptr, 0);
     ASSERT_NE(timecode, nullptr) << name;
     EXPECT_STREQ(timecode->value, "01:00:01:00") << name;
     if (std::string(name) == "a.mov") continue;  // libav writes no sphere into QuickTime

@@ -56,7 +56,7 @@ std::string fingerprint_of(const FilmWriterOptions& options, const SegmentOption
   print.add(text_of_fields(values));
   print.add(fmt::format("{}", segments.frames_per_segment));
   print.add(segments.made_by);
-  print.add(fmt::format("{}", avcodec_version()));
+  print.add(fmt::format("{}", libav().avcodec_version()));
   if (!options.side_streams_from.empty()) print.add_file(options.side_streams_from);
   for (const std::filesystem::path& source : segments.made_from) print.add_file(source);
   return print.text();

@@ -55,8 +55,8 @@ bool same_coding(const AVCodecParameters& a, const AVCodecParameters& b) {
 }
 
 OwnedParameters copy_of(const AVCodecParameters& coded) {
-  OwnedParameters copy(avcodec_parameters_alloc());
-  if (!copy || avcodec_parameters_copy(copy.get(), &coded) < 0) throw std::bad_alloc();
+  OwnedParameters copy(libav().avcodec_parameters_alloc());
+  if (!copy || libav().avcodec_parameters_copy(copy.get(), &coded) < 0) throw std::bad_alloc();
   return copy;
 }
 
@@ -67,7 +67,7 @@ std::optional<Rational> even_rate(const SegmentTimes& times) {
     return {};
   for (std::size_t i = 1; i < times.pts.size(); ++i)
     if (times.pts[i] - times.pts[i - 1] != duration) return {};
-  return from_av(av_inv_q(av_mul_q(as_av(times.time_base), av_make_q(static_cast<int>(duration), 1))));
+  return from_av(av_inv_q(libav().av_mul_q(as_av(times.time_base), av_make_q(static_cast<int>(duration), 1))));
 }
 
 }  // namespace

@@ -10,7 +10,6 @@
 
 extern "C" {
 #include <libavutil/spherical.h>
-#include <libavutil/timecode.h>
 }
 
 #include "wheatstone/error.h"
@@ -24,12 +23,12 @@ bool near_quarter(std::uint32_t bound) { return bound >= quarter - quarter / 64 
 
 const AVSphericalMapping* mapping_of(const AVStream& stream) {
   std::size_t size = 0;
-  const std::uint8_t* data = av_stream_get_side_data(&stream, AV_PKT_DATA_SPHERICAL, &size);
+  const std::uint8_t* data = libav().av_stream_get_side_data(&stream, AV_PKT_DATA_SPHERICAL, &size);
   return size >= sizeof(AVSphericalMapping) ? reinterpret_cast<const AVSphericalMapping*>(data) : nullptr;
 }
 
 void add_mapping(const AVSphericalMapping& mapping, AVStream& stream) {
-  std::uint8_t* data = av_stream_new_side_data(&stream, AV_PKT_DATA_SPHERICAL, sizeof(AVSphericalMapping));
+  std::uint8_t* data = libav().av_stream_new_side_data(&stream, AV_PKT_DATA_SPHERICAL, sizeof(AVSphericalMapping));
   if (data == nullptr) throw std::bad_alloc();
   std::memcpy(data, &mapping, sizeof(AVSphericalMapping));
 }
@@ -37,7 +36,7 @@ void add_mapping(const AVSphericalMapping& mapping, AVStream& stream) {
 const char* timecode_tag(const AVFormatContext& source) {
   for (unsigned i = 0; i <= source.nb_streams; ++i) {
     const AVDictionary* tags = i == 0 ? source.metadata : source.streams[i - 1]->metadata;
-    if (const AVDictionaryEntry* entry = av_dict_get(tags, "timecode", nullptr, 0)) return entry->value;
+    if (const AVDictionaryEntry* entry = libav().av_dict_get(tags, "timecode", nullptr, 0)) return entry->value;
   }
   return nullptr;
 }
@@ -84,18 +83,18 @@ void keep_chapters(const AVFormatContext& source, const FilmWriterOptions& optio
     const auto ticks = [&](double seconds) { return static_cast<std::int64_t>(std::llround(seconds / tick)); };
     const std::int64_t first = ticks(options.start_s), last = options.end_s ? ticks(*options.end_s) : from.end;
     if (from.end <= first || from.start >= last) continue;
-    auto* const chapter = static_cast<AVChapter*>(av_mallocz(sizeof(AVChapter)));
+    auto* const chapter = static_cast<AVChapter*>(libav().av_mallocz(sizeof(AVChapter)));
     if (chapter == nullptr) throw std::bad_alloc();
     chapter->id = from.id;
     chapter->time_base = from.time_base;
     chapter->start = std::max(from.start, first) - first;
     chapter->end = std::min(from.end, last) - first;
-    av_dict_copy(&chapter->metadata, from.metadata, 0);
+    libav().av_dict_copy(&chapter->metadata, from.metadata, 0);
     kept.push_back(chapter);
   }
   if (kept.empty()) return;
   // The output frees them.
-  output.chapters = static_cast<AVChapter**>(av_malloc(kept.size() * sizeof(AVChapter*)));
+  output.chapters = static_cast<AVChapter**>(libav().av_malloc(kept.size() * sizeof(AVChapter*)));
   if (output.chapters == nullptr) throw std::bad_alloc();
   std::ranges::copy(kept, output.chapters);
   output.nb_chapters = static_cast<unsigned>(kept.size());
@@ -107,14 +106,15 @@ void keep_timecode(const AVFormatContext& source, const FilmWriterOptions& optio
   if (tag == nullptr) return;
   const AVRational rate = as_av(options.frame_rate);
   AVTimecode timecode{};
-  if (rate.num <= 0 || av_timecode_init_from_string(&timecode, rate, tag, nullptr) < 0) {
+  if (rate.num <= 0 || libav().av_timecode_init_from_string(&timecode, rate, tag, nullptr) < 0) {
     notes.push_back(fmt::format("the timecode {} is left out: it cannot be counted at {}/{} frames a second", tag,
                                 rate.num, rate.den));
     return;
   }
   std::array<char, AV_TIMECODE_STR_SIZE> text{};
-  av_timecode_make_string(&timecode, text.data(), static_cast<int>(std::lround(options.start_s * av_q2d(rate))));
-  av_dict_set(&stream.metadata, "timecode", text.data(), 0);
+  libav().av_timecode_make_string(&timecode, text.data(),
+                                  static_cast<int>(std::lround(options.start_s * av_q2d(rate))));
+  libav().av_dict_set(&stream.metadata, "timecode", text.data(), 0);
   stream.avg_frame_rate = rate;
 }
 

@@ -1,14 +1,10 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <mutex>
 #include <new>
 
-extern "C" {
-#include <libavutil/log.h>
-}
-
 #include "wheatstone/error.h"
+#include "wheatstone/files/module.h"
 #include "wheatstone/files/whole_file.h"
 #include "wheatstone/video/libav_internal.h"
 
@@ -23,34 +19,35 @@ constexpr const char* containers =
 
 }  // namespace
 
+const LibavFunctions& libav() {
+  static const LibavFunctions* const loaded =
+      reinterpret_cast<GiveLibav*>(function_of_module(libav_module_name, give_libav_name, libav_module_bytes))();
+  return *loaded;
+}
+
 OwnedFrame new_frame() {
-  OwnedFrame frame(av_frame_alloc());
+  OwnedFrame frame(libav().av_frame_alloc());
   if (!frame) throw std::bad_alloc();
   return frame;
 }
 
 OwnedPacket new_packet() {
-  OwnedPacket packet(av_packet_alloc());
+  OwnedPacket packet(libav().av_packet_alloc());
   if (!packet) throw std::bad_alloc();
   return packet;
 }
 
 OwnedParameters parameters_of(const AVCodecContext& encoder) {
-  OwnedParameters parameters(avcodec_parameters_alloc());
-  if (!parameters || avcodec_parameters_from_context(parameters.get(), &encoder) < 0) throw std::bad_alloc();
+  OwnedParameters parameters(libav().avcodec_parameters_alloc());
+  if (!parameters || libav().avcodec_parameters_from_context(parameters.get(), &encoder) < 0) throw std::bad_alloc();
   return parameters;
-}
-
-void silence_libav() {
-  static std::once_flag once;
-  std::call_once(once, [] { av_log_set_level(AV_LOG_QUIET); });
 }
 
 std::string libav_reason(int error) {
   // "Try again" is what it says where a thread cannot be started.
   if (error == AVERROR(ENOMEM) || error == AVERROR(EAGAIN)) throw std::bad_alloc();
   std::array<char, AV_ERROR_MAX_STRING_SIZE> text{};
-  av_strerror(error, text.data(), text.size());
+  libav().av_strerror(error, text.data(), text.size());
   return text.data();
 }
 
@@ -63,21 +60,20 @@ void fail_to_write_film(const fs::path& path, int error) {
 }
 
 OwnedInput open_input(const fs::path& path) {
-  silence_libav();
   check_plain_file(path, "a film");
   AVDictionary* options = nullptr;
-  av_dict_set(&options, "format_whitelist", containers, 0);
-  av_dict_set(&options, "protocol_whitelist", "file", 0);
+  libav().av_dict_set(&options, "format_whitelist", containers, 0);
+  libav().av_dict_set(&options, "protocol_whitelist", "file", 0);
   AVFormatContext* opened = nullptr;
   // With the protocol said, a colon in a file's name is nothing special.
-  const int error = avformat_open_input(&opened, ("file:" + path.string()).c_str(), nullptr, &options);
-  av_dict_free(&options);
+  const int error = libav().avformat_open_input(&opened, ("file:" + path.string()).c_str(), nullptr, &options);
+  libav().av_dict_free(&options);
   if (error < 0) {
     refuse_film(path, fmt::format("no film, or a damaged one ({}); expected MP4, Matroska, AVI, MPEG, GIF or the like",
                                   libav_reason(error)));
   }
   OwnedInput input(opened);
-  const int unknown = avformat_find_stream_info(input.get(), nullptr);
+  const int unknown = libav().avformat_find_stream_info(input.get(), nullptr);
   if (unknown < 0) refuse_film(path, fmt::format("its streams cannot be read: {}", libav_reason(unknown)));
   return input;
 }

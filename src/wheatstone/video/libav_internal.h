@@ -2,28 +2,22 @@
 
 // libav's objects with owners, its errors with words. Seen by .cpp files only, never installed.
 
-extern "C" {
-#include <libavcodec/avcodec.h>
-#include <libavformat/avformat.h>
-#include <libavutil/frame.h>
-#include <libswscale/swscale.h>
-}
-
 #include <filesystem>
 #include <memory>
 #include <string>
 #include <string_view>
 
 #include "wheatstone/video/frame.h"
+#include "wheatstone/video/libav_functions_internal.h"
 
 namespace wheatstone {
 
 struct LibavDeleter {
-  void operator()(AVFrame* frame) const { av_frame_free(&frame); }
-  void operator()(AVPacket* packet) const { av_packet_free(&packet); }
-  void operator()(AVCodecContext* codec) const { avcodec_free_context(&codec); }
-  void operator()(AVCodecParameters* parameters) const { avcodec_parameters_free(&parameters); }
-  void operator()(SwsContext* scaler) const { sws_freeContext(scaler); }
+  void operator()(AVFrame* frame) const { libav().av_frame_free(&frame); }
+  void operator()(AVPacket* packet) const { libav().av_packet_free(&packet); }
+  void operator()(AVCodecContext* codec) const { libav().avcodec_free_context(&codec); }
+  void operator()(AVCodecParameters* parameters) const { libav().avcodec_parameters_free(&parameters); }
+  void operator()(SwsContext* scaler) const { libav().sws_freeContext(scaler); }
 };
 using OwnedFrame = std::unique_ptr<AVFrame, LibavDeleter>;
 using OwnedPacket = std::unique_ptr<AVPacket, LibavDeleter>;
@@ -32,7 +26,7 @@ using OwnedParameters = std::unique_ptr<AVCodecParameters, LibavDeleter>;
 using OwnedScaler = std::unique_ptr<SwsContext, LibavDeleter>;
 
 struct InputDeleter {
-  void operator()(AVFormatContext* input) const { avformat_close_input(&input); }
+  void operator()(AVFormatContext* input) const { libav().avformat_close_input(&input); }
 };
 using OwnedInput = std::unique_ptr<AVFormatContext, InputDeleter>;
 
@@ -40,9 +34,6 @@ OwnedFrame new_frame();
 OwnedPacket new_packet();
 /// What an opened encoder makes.
 OwnedParameters parameters_of(const AVCodecContext& encoder);
-
-/// Keeps libav from writing to the terminal: what matters comes as an Error. Once is enough, more does no harm.
-void silence_libav();
 
 /// What libav's error number means, in its words.
 std::string libav_reason(int error);

@@ -9,11 +9,6 @@
 #include <span>
 #include <type_traits>
 
-extern "C" {
-#include <libavutil/opt.h>
-#include <libavutil/pixdesc.h>
-}
-
 namespace wheatstone {
 namespace {
 
@@ -29,16 +24,16 @@ std::string or_empty(const char* name) {
 const int* coefficients_of(AVColorSpace matrix) {
   switch (matrix) {
     case AVCOL_SPC_BT709:
-      return sws_getCoefficients(SWS_CS_ITU709);
+      return libav().sws_getCoefficients(SWS_CS_ITU709);
     case AVCOL_SPC_FCC:
-      return sws_getCoefficients(SWS_CS_FCC);
+      return libav().sws_getCoefficients(SWS_CS_FCC);
     case AVCOL_SPC_SMPTE240M:
-      return sws_getCoefficients(SWS_CS_SMPTE240M);
+      return libav().sws_getCoefficients(SWS_CS_SMPTE240M);
     case AVCOL_SPC_BT2020_NCL:
     case AVCOL_SPC_BT2020_CL:
-      return sws_getCoefficients(SWS_CS_BT2020);
+      return libav().sws_getCoefficients(SWS_CS_BT2020);
     default:
-      return sws_getCoefficients(SWS_CS_ITU601);
+      return libav().sws_getCoefficients(SWS_CS_ITU601);
   }
 }
 
@@ -71,18 +66,18 @@ ChromaPlace chroma_place(AVChromaLocation location) {
 
 SwsContext& prepared(SwsContext* scaler, int width, int height, AVPixelFormat from, AVPixelFormat to) {
   if (scaler == nullptr) throw std::bad_alloc();
-  av_opt_set_int(scaler, "srcw", width, 0);
-  av_opt_set_int(scaler, "srch", height, 0);
-  av_opt_set_int(scaler, "dstw", width, 0);
-  av_opt_set_int(scaler, "dsth", height, 0);
-  av_opt_set_int(scaler, "src_format", from, 0);
-  av_opt_set_int(scaler, "dst_format", to, 0);
-  av_opt_set_int(scaler, "sws_flags", careful, 0);
+  libav().av_opt_set_int(scaler, "srcw", width, 0);
+  libav().av_opt_set_int(scaler, "srch", height, 0);
+  libav().av_opt_set_int(scaler, "dstw", width, 0);
+  libav().av_opt_set_int(scaler, "dsth", height, 0);
+  libav().av_opt_set_int(scaler, "src_format", from, 0);
+  libav().av_opt_set_int(scaler, "dst_format", to, 0);
+  libav().av_opt_set_int(scaler, "sws_flags", careful, 0);
   return *scaler;
 }
 
 bool is_rgb(AVPixelFormat format) {
-  const AVPixFmtDescriptor* description = av_pix_fmt_desc_get(format);
+  const AVPixFmtDescriptor* description = libav().av_pix_fmt_desc_get(format);
   return description != nullptr && (description->flags & AV_PIX_FMT_FLAG_RGB) != 0;
 }
 
@@ -128,7 +123,7 @@ OwnedFrame frame_of(int width, int height, AVPixelFormat format) {
   frame->width = width;
   frame->height = height;
   frame->format = format;
-  if (av_frame_get_buffer(frame.get(), 0) < 0) throw std::bad_alloc();
+  if (libav().av_frame_get_buffer(frame.get(), 0) < 0) throw std::bad_alloc();
   return frame;
 }
 
@@ -136,8 +131,8 @@ OwnedFrame frame_of(int width, int height, AVPixelFormat format) {
 
 ColourTags colour_tags_of(AVColorSpace matrix, AVColorRange range, AVColorPrimaries primaries,
                           AVColorTransferCharacteristic transfer) {
-  return {or_empty(av_color_space_name(matrix)), or_empty(av_color_range_name(range)),
-          or_empty(av_color_primaries_name(primaries)), or_empty(av_color_transfer_name(transfer))};
+  return {or_empty(libav().av_color_space_name(matrix)), or_empty(libav().av_color_range_name(range)),
+          or_empty(libav().av_color_primaries_name(primaries)), or_empty(libav().av_color_transfer_name(transfer))};
 }
 
 AVColorSpace matrix_in_use(AVColorSpace tagged, int width, int height) {
@@ -146,7 +141,7 @@ AVColorSpace matrix_in_use(AVColorSpace tagged, int width, int height) {
 }
 
 bool is_deep(AVPixelFormat format) {
-  const AVPixFmtDescriptor* description = av_pix_fmt_desc_get(format);
+  const AVPixFmtDescriptor* description = libav().av_pix_fmt_desc_get(format);
   return description != nullptr && description->comp[0].depth > 8;
 }
 
@@ -157,23 +152,23 @@ void RgbFromFrame<Pixel>::convert(const AVFrame& frame, Image<Pixel>& picture) {
   const std::array<int, 6> wanted = {frame.width, frame.height,      frame.format,
                                      matrix,      frame.color_range, frame.chroma_location};
   if (!scaler_ || wanted != made_for_) {
-    scaler_.reset(sws_alloc_context());
+    scaler_.reset(libav().sws_alloc_context());
     SwsContext& scaler = prepared(scaler_.get(), frame.width, frame.height, format, packed_format<Pixel>);
-    const AVPixFmtDescriptor* description = av_pix_fmt_desc_get(format);
+    const AVPixFmtDescriptor* description = libav().av_pix_fmt_desc_get(format);
     if (description != nullptr && description->log2_chroma_w == 1) {
       const ChromaPlace place = chroma_place(frame.chroma_location);
-      av_opt_set_int(&scaler, "src_h_chr_pos", place.across, 0);
-      if (description->log2_chroma_h == 1) av_opt_set_int(&scaler, "src_v_chr_pos", place.down, 0);
+      libav().av_opt_set_int(&scaler, "src_h_chr_pos", place.across, 0);
+      if (description->log2_chroma_h == 1) libav().av_opt_set_int(&scaler, "src_v_chr_pos", place.down, 0);
     }
-    if (sws_init_context(&scaler, nullptr, nullptr) < 0) throw std::bad_alloc();
-    sws_setColorspaceDetails(&scaler, coefficients_of(matrix), is_full_range(format, frame.color_range) ? 1 : 0,
-                             sws_getCoefficients(SWS_CS_DEFAULT), 1, 0, 1 << 16, 1 << 16);
+    if (libav().sws_init_context(&scaler, nullptr, nullptr) < 0) throw std::bad_alloc();
+    libav().sws_setColorspaceDetails(&scaler, coefficients_of(matrix), is_full_range(format, frame.color_range) ? 1 : 0,
+                                     libav().sws_getCoefficients(SWS_CS_DEFAULT), 1, 0, 1 << 16, 1 << 16);
     rgb_ = frame_of(frame.width, frame.height, packed_format<Pixel>);
     made_for_ = wanted;
   }
 
   // Not straight into the picture: swscale's vectors may write past the end of an unpadded row.
-  sws_scale(scaler_.get(), frame.data, frame.linesize, 0, frame.height, rgb_->data, rgb_->linesize);
+  libav().sws_scale(scaler_.get(), frame.data, frame.linesize, 0, frame.height, rgb_->data, rgb_->linesize);
   // A picture that was moved from still tells its size, but has no pixels.
   if (picture.width() != frame.width || picture.height() != frame.height || picture.empty()) {
     picture = Image<Pixel>(frame.width, frame.height);
@@ -188,17 +183,17 @@ void RgbFromFrame<Pixel>::convert(const AVFrame& frame, Image<Pixel>& picture) {
 
 template <class Pixel>
 FrameFromRgb<Pixel>::FrameFromRgb(int width, int height, AVPixelFormat format, AVColorSpace matrix, AVColorRange range)
-    : scaler_(sws_alloc_context()), rgb_(frame_of(width, height, packed_for<Pixel>(format))), format_(format) {
+    : scaler_(libav().sws_alloc_context()), rgb_(frame_of(width, height, packed_for<Pixel>(format))), format_(format) {
   SwsContext& scaler = prepared(scaler_.get(), width, height, packed_for<Pixel>(format), format);
-  const AVPixFmtDescriptor* description = av_pix_fmt_desc_get(format);
+  const AVPixFmtDescriptor* description = libav().av_pix_fmt_desc_get(format);
   if (description->log2_chroma_w == 1) {
     const ChromaPlace place = chroma_place(AVCHROMA_LOC_LEFT);
-    av_opt_set_int(&scaler, "dst_h_chr_pos", place.across, 0);
-    if (description->log2_chroma_h == 1) av_opt_set_int(&scaler, "dst_v_chr_pos", place.down, 0);
+    libav().av_opt_set_int(&scaler, "dst_h_chr_pos", place.across, 0);
+    if (description->log2_chroma_h == 1) libav().av_opt_set_int(&scaler, "dst_v_chr_pos", place.down, 0);
   }
-  if (sws_init_context(&scaler, nullptr, nullptr) < 0) throw std::bad_alloc();
-  sws_setColorspaceDetails(&scaler, sws_getCoefficients(SWS_CS_DEFAULT), 1, coefficients_of(matrix),
-                           is_rgb(format) || range == AVCOL_RANGE_JPEG ? 1 : 0, 0, 1 << 16, 1 << 16);
+  if (libav().sws_init_context(&scaler, nullptr, nullptr) < 0) throw std::bad_alloc();
+  libav().sws_setColorspaceDetails(&scaler, libav().sws_getCoefficients(SWS_CS_DEFAULT), 1, coefficients_of(matrix),
+                                   is_rgb(format) || range == AVCOL_RANGE_JPEG ? 1 : 0, 0, 1 << 16, 1 << 16);
 }
 
 template <class Pixel>
@@ -217,7 +212,7 @@ OwnedFrame FrameFromRgb<Pixel>::convert(ImageView<const Pixel> picture) {
       if (!is_rgb(format_)) to_swscale(target);
   }
   OwnedFrame frame = frame_of(rgb_->width, rgb_->height, format_);
-  sws_scale(scaler_.get(), rgb_->data, rgb_->linesize, 0, rgb_->height, frame->data, frame->linesize);
+  libav().sws_scale(scaler_.get(), rgb_->data, rgb_->linesize, 0, rgb_->height, frame->data, frame->linesize);
   return frame;
 }
 

@@ -108,14 +108,14 @@ std::int64_t read_segment(const fs::path& folder, std::int64_t number,
   const AVStream& stream = *input->streams[index];
   const OwnedPacket packet = new_packet();
   std::int64_t count = 0;
-  while (av_read_frame(input.get(), packet.get()) >= 0) {
+  while (libav().av_read_frame(input.get(), packet.get()) >= 0) {
     if (packet->stream_index == index) {
-      const std::int64_t shown = av_rescale_q(packet->pts, stream.time_base, as_av(numbering));
+      const std::int64_t shown = libav().av_rescale_q(packet->pts, stream.time_base, as_av(numbering));
       if (packet->pts == AV_NOPTS_VALUE || shown < 0) refuse_film(file, "is damaged; delete the folder to start again");
       sink(*stream.codecpar, *packet, static_cast<std::size_t>(shown));
       ++count;
     }
-    av_packet_unref(packet.get());
+    libav().av_packet_unref(packet.get());
   }
   return count;
 }

@@ -12,9 +12,9 @@ constexpr int most_packets_read = 4000;
 struct CloseOutput {
   void operator()(AVFormatContext* output) const {
     std::uint8_t* bytes = nullptr;
-    if (output->pb != nullptr) avio_close_dyn_buf(output->pb, &bytes);
-    av_free(bytes);
-    avformat_free_context(output);
+    if (output->pb != nullptr) libav().avio_close_dyn_buf(output->pb, &bytes);
+    libav().av_free(bytes);
+    libav().avformat_free_context(output);
   }
 };
 
@@ -28,13 +28,13 @@ std::map<int, std::vector<OwnedPacket>> first_packets(const std::filesystem::pat
   }
   std::map<int, std::vector<OwnedPacket>> packets;
   OwnedPacket packet = new_packet();
-  for (int read = 0; read < most_packets_read && av_read_frame(input.get(), packet.get()) >= 0; ++read) {
+  for (int read = 0; read < most_packets_read && libav().av_read_frame(input.get(), packet.get()) >= 0; ++read) {
     std::vector<OwnedPacket>& of_stream = packets[packet->stream_index];
     if (of_stream.size() < most_packets) {
       of_stream.push_back(std::move(packet));
       packet = new_packet();
     } else {
-      av_packet_unref(packet.get());
+      libav().av_packet_unref(packet.get());
     }
   }
   return packets;
@@ -47,20 +47,20 @@ SideStreamTrial::SideStreamTrial(const std::filesystem::path& source, const AVOu
 
 int SideStreamTrial::error_of(const AVStream& from) {
   AVFormatContext* made = nullptr;
-  if (avformat_alloc_output_context2(&made, &format_, nullptr, nullptr) < 0) throw std::bad_alloc();
+  if (libav().avformat_alloc_output_context2(&made, &format_, nullptr, nullptr) < 0) throw std::bad_alloc();
   const std::unique_ptr<AVFormatContext, CloseOutput> output(made);
   output->flags |= AVFMT_FLAG_BITEXACT;
   output->strict_std_compliance = FF_COMPLIANCE_EXPERIMENTAL;
   CopiedStream target(*output, from);
-  int error = avio_open_dyn_buf(&output->pb);
-  if (error >= 0) error = avformat_write_header(output.get(), nullptr);
+  int error = libav().avio_open_dyn_buf(&output->pb);
+  if (error >= 0) error = libav().avformat_write_header(output.get(), nullptr);
   if (error < 0) return error;
   for (OwnedPacket& packet : packets_[from.index]) {
     target.fit(*packet, from.time_base, 0);
-    error = av_interleaved_write_frame(output.get(), packet.get());
+    error = libav().av_interleaved_write_frame(output.get(), packet.get());
     if (error < 0) return error;
   }
-  return av_write_trailer(output.get());
+  return libav().av_write_trailer(output.get());
 }
 
 }  // namespace wheatstone

@@ -18,7 +18,7 @@ bool is_wanted(AVMediaType type, const FilmWriterOptions& options) {
 
 /// Why the container does not take a stream; empty where it does.
 std::string refusal_of(const AVStream& stream, const AVOutputFormat& format, SideStreamTrial& trial) {
-  if (avformat_query_codec(&format, stream.codecpar->codec_id, FF_COMPLIANCE_EXPERIMENTAL) != 1)
+  if (libav().avformat_query_codec(&format, stream.codecpar->codec_id, FF_COMPLIANCE_EXPERIMENTAL) != 1)
     return fmt::format("{} cannot hold it", format.name);
   const int error = trial.error_of(stream);
   return error < 0 ? fmt::format("{} does not take it as it is ({})", format.name, libav_reason(error)) : "";
@@ -27,14 +27,15 @@ std::string refusal_of(const AVStream& stream, const AVOutputFormat& format, Sid
 }  // namespace
 
 CopiedStream::CopiedStream(AVFormatContext& output, const AVStream& from)
-    : stream_(avformat_new_stream(&output, nullptr)) {
-  if (stream_ == nullptr || avcodec_parameters_copy(stream_->codecpar, from.codecpar) < 0) throw std::bad_alloc();
+    : stream_(libav().avformat_new_stream(&output, nullptr)) {
+  if (stream_ == nullptr || libav().avcodec_parameters_copy(stream_->codecpar, from.codecpar) < 0)
+    throw std::bad_alloc();
   stream_->codecpar->codec_tag = 0;  // a number of the source's container
   stream_->time_base = from.time_base;
   stream_->disposition = from.disposition;
   for (const char* key : {"language", "title"}) {
-    if (const AVDictionaryEntry* tag = av_dict_get(from.metadata, key, nullptr, 0)) {
-      av_dict_set(&stream_->metadata, key, tag->value, 0);
+    if (const AVDictionaryEntry* tag = libav().av_dict_get(from.metadata, key, nullptr, 0)) {
+      libav().av_dict_set(&stream_->metadata, key, tag->value, 0);
     }
   }
 }
@@ -43,7 +44,7 @@ void CopiedStream::fit(AVPacket& packet, AVRational time_base, double start_s) {
   const auto shift = static_cast<std::int64_t>(std::llround(start_s / av_q2d(time_base)));
   if (packet.pts != AV_NOPTS_VALUE) packet.pts -= shift;
   if (packet.dts != AV_NOPTS_VALUE) packet.dts -= shift;
-  av_packet_rescale_ts(&packet, time_base, stream_->time_base);
+  libav().av_packet_rescale_ts(&packet, time_base, stream_->time_base);
   // A source whose clock stumbles would end the writing.
   if (packet.dts != AV_NOPTS_VALUE && stream_->codecpar->codec_type == AVMEDIA_TYPE_AUDIO) {
     if (last_dts_ != AV_NOPTS_VALUE) packet.dts = std::max(packet.dts, last_dts_ + 1);
@@ -72,7 +73,7 @@ SideStreams::SideStreams(const FilmWriterOptions& options, AVFormatContext& outp
     if (!refusal.empty()) {
       notes.push_back(fmt::format("{} stream {} ({}) of {} is left out: {}",
                                   type == AVMEDIA_TYPE_AUDIO ? "audio" : "subtitle", i,
-                                  avcodec_get_name(from.codecpar->codec_id), source_name_, refusal));
+                                  libav().avcodec_get_name(from.codecpar->codec_id), source_name_, refusal));
       continue;
     }
     from.discard = AVDISCARD_DEFAULT;
@@ -83,7 +84,7 @@ SideStreams::SideStreams(const FilmWriterOptions& options, AVFormatContext& outp
 /// Reads on to the next packet that is to be copied.
 bool SideStreams::fetch() {
   while (!fetched_ && !at_end_ && !targets_.empty()) {
-    if (av_read_frame(source_.get(), packet_.get()) < 0) {
+    if (libav().av_read_frame(source_.get(), packet_.get()) < 0) {
       at_end_ = true;
       break;
     }
@@ -95,7 +96,7 @@ bool SideStreams::fetch() {
       // Sound that begins a moment before zero (an encoder's run-up) belongs to a film that begins at zero.
       fetched_ = (start_s_ <= 0 || seconds >= start_s_) && (!end_s_ || seconds < *end_s_);
     }
-    if (!fetched_) av_packet_unref(packet_.get());
+    if (!fetched_) libav().av_packet_unref(packet_.get());
   }
   return fetched_;
 }
@@ -103,7 +104,7 @@ bool SideStreams::fetch() {
 int SideStreams::write_fetched() {
   targets_.at(packet_->stream_index).fit(*packet_, source_->streams[packet_->stream_index]->time_base, start_s_);
   fetched_ = false;
-  const int error = av_interleaved_write_frame(&output_, packet_.get());
+  const int error = libav().av_interleaved_write_frame(&output_, packet_.get());
   // Of a damaged packet, not of the disk.
   if (error != AVERROR(EINVAL) && error != AVERROR_INVALIDDATA) return error;
   ++dropped_;

@@ -6,12 +6,8 @@
 #include <algorithm>
 #include <array>
 
-extern "C" {
-#include <libavcodec/avcodec.h>
-#include <libavutil/pixdesc.h>
-}
-
 #include "wheatstone/error.h"
+#include "wheatstone/video/libav_functions_internal.h"
 
 namespace wheatstone {
 
@@ -57,7 +53,7 @@ const VideoCoding& coding_of(const FilmWriterOptions& options) {
 }
 
 void check_encoder(const VideoCoding& coding) {
-  if (avcodec_find_encoder_by_name(std::string(coding.encoder).c_str()) == nullptr)
+  if (libav().avcodec_find_encoder_by_name(std::string(coding.encoder).c_str()) == nullptr)
     throw Error(ErrorKind::wrong_usage,
                 fmt::format("codec: {} is not in this installation's libavcodec ({})", coding.name, coding.encoder));
 }
@@ -68,7 +64,7 @@ AVPixelFormat pixel_format_of(const FilmWriterOptions& options) {
   if (std::ranges::find(coding.formats, name) == coding.formats.end())
     throw Error(ErrorKind::wrong_usage, fmt::format("pixel format: {}, expected {} for {}", name,
                                                     fmt::join(coding.formats, ", "), coding.name));
-  return av_get_pix_fmt(name.c_str());
+  return libav().av_get_pix_fmt(name.c_str());
 }
 
 std::span<const std::string_view> encoder_presets() {

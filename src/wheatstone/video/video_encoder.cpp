@@ -8,12 +8,6 @@
 #include <new>
 #include <string_view>
 
-extern "C" {
-#include <libavutil/cpu.h>
-#include <libavutil/opt.h>
-#include <libavutil/pixdesc.h>
-}
-
 #include "wheatstone/error.h"
 #include "wheatstone/files/module.h"
 #include "wheatstone/video/kept_metadata_internal.h"
@@ -32,7 +26,9 @@ std::size_t bytes_of_encoder(const std::string& codec, int width, int height) {
 }
 
 // What x264 core 164 computes with AVX-512 for its macroblock tree differs from run to run.
-const char* x264_processor() { return (av_get_cpu_flags() & AV_CPU_FLAG_AVX512) != 0 ? "asm=avx2" : "asm=auto"; }
+const char* x264_processor() {
+  return (libav().av_get_cpu_flags() & AV_CPU_FLAG_AVX512) != 0 ? "asm=avx2" : "asm=auto";
+}
 
 [[noreturn]] void refuse(const std::string& what) { throw Error(ErrorKind::wrong_usage, what); }
 
@@ -45,16 +41,17 @@ int rounded_up(int size, int log2_step) {
 void tag_colours(AVCodecContext& codec, const FilmWriterOptions& options, bool is_rgb) {
   const ColourTags& tags = options.colour;
   const auto known = [](int value, int otherwise) { return value < 0 ? otherwise : value; };
-  codec.color_primaries =
-      static_cast<AVColorPrimaries>(known(av_color_primaries_from_name(tags.primaries.c_str()), AVCOL_PRI_UNSPECIFIED));
+  codec.color_primaries = static_cast<AVColorPrimaries>(
+      known(libav().av_color_primaries_from_name(tags.primaries.c_str()), AVCOL_PRI_UNSPECIFIED));
   codec.color_trc = static_cast<AVColorTransferCharacteristic>(
-      known(av_color_transfer_from_name(tags.transfer.c_str()), AVCOL_TRC_UNSPECIFIED));
+      known(libav().av_color_transfer_from_name(tags.transfer.c_str()), AVCOL_TRC_UNSPECIFIED));
   if (is_rgb) {
     codec.colorspace = AVCOL_SPC_RGB;
     codec.color_range = AVCOL_RANGE_JPEG;
     return;
   }
-  auto matrix = static_cast<AVColorSpace>(known(av_color_space_from_name(tags.matrix.c_str()), AVCOL_SPC_UNSPECIFIED));
+  auto matrix =
+      static_cast<AVColorSpace>(known(libav().av_color_space_from_name(tags.matrix.c_str()), AVCOL_SPC_UNSPECIFIED));
   if (matrix == AVCOL_SPC_RGB || matrix > AVCOL_SPC_BT2020_NCL) matrix = AVCOL_SPC_UNSPECIFIED;
   codec.colorspace = matrix_in_use(matrix, codec.width, codec.height);
   // Its pictures know no other, and decoders believe them more than the container.
@@ -82,32 +79,32 @@ const char* dnxhr_profile(AVPixelFormat format) {
 
 void set_private_options(AVCodecContext& codec, const FilmWriterOptions& options, const VideoCoding& coding) {
   void* const own = codec.priv_data;
-  if (coding.most_crf > 0) av_opt_set_double(own, "crf", options.crf.value_or(coding.usual_crf), 0);
+  if (coding.most_crf > 0) libav().av_opt_set_double(own, "crf", options.crf.value_or(coding.usual_crf), 0);
   if (coding.encoder == "libx264") {
-    av_opt_set(own, "preset", options.preset.c_str(), 0);
+    libav().av_opt_set(own, "preset", options.preset.c_str(), 0);
     std::string parameters = x264_processor();
     if (const auto packing = frame_packing_of(options.layout)) parameters += fmt::format(":frame-packing={}", *packing);
     // x264 takes six steps from the chroma of 4:4:4; who chooses that wants its chroma.
     if (codec.pix_fmt == AV_PIX_FMT_YUV444P) parameters += ":chroma-qp-offset=-6";
-    av_opt_set(own, "x264-params", parameters.c_str(), 0);
+    libav().av_opt_set(own, "x264-params", parameters.c_str(), 0);
   } else if (coding.encoder == "libx265") {
-    av_opt_set(own, "preset", options.preset.c_str(), 0);
+    libav().av_opt_set(own, "preset", options.preset.c_str(), 0);
     // Its own threads; libav's setting is how many frames at a time.
-    av_opt_set(own, "x265-params", "log-level=none:pools=4", 0);
+    libav().av_opt_set(own, "x265-params", "log-level=none:pools=4", 0);
   } else if (coding.encoder == "prores_ks") {
-    av_opt_set(own, "profile", options.codec == "prores-4444" ? "4444" : "hq", 0);
-    av_opt_set(own, "vendor", "apl0", 0);  // editors doubt films of other makers
+    libav().av_opt_set(own, "profile", options.codec == "prores-4444" ? "4444" : "hq", 0);
+    libav().av_opt_set(own, "vendor", "apl0", 0);  // editors doubt films of other makers
   } else if (coding.encoder == "dnxhd") {
-    av_opt_set(own, "profile", dnxhr_profile(codec.pix_fmt), 0);
+    libav().av_opt_set(own, "profile", dnxhr_profile(codec.pix_fmt), 0);
   } else if (coding.encoder == "ffv1") {
     codec.level = 3;
     codec.slices = 4;
     codec.gop_size = 1;
-    av_opt_set_int(own, "slicecrc", 1, 0);
+    libav().av_opt_set_int(own, "slicecrc", 1, 0);
   } else {  // libaom, libvpx
-    av_opt_set_int(own, "cpu-used", cpu_used(options), 0);
-    if (options.codec == "vp9") av_opt_set_int(own, "tile-columns", 2, 0);  // what its threads share
-    codec.bit_rate = 0;                                                     // the quality decides
+    libav().av_opt_set_int(own, "cpu-used", cpu_used(options), 0);
+    if (options.codec == "vp9") libav().av_opt_set_int(own, "tile-columns", 2, 0);  // what its threads share
+    codec.bit_rate = 0;                                                             // the quality decides
   }
 }
 
@@ -134,18 +131,17 @@ void note_padding(ImageView<const Rgb8> picture, const AVCodecContext& codec, st
 }
 
 VideoEncoder::VideoEncoder(const FilmWriterOptions& options, int width, int height, Rational time_base) {
-  silence_libav();
   check_encoding(options);
   const VideoCoding& coding = coding_of(options);
   if (width < coding.least_width || height < coding.least_height)
     refuse(fmt::format("{} cannot encode {}x{} pixels, expected at least {}x{}", coding.name, width, height,
                        coding.least_width, coding.least_height));
-  const AVCodec* encoder = avcodec_find_encoder_by_name(std::string(coding.encoder).c_str());
-  codec_.reset(avcodec_alloc_context3(encoder));
+  const AVCodec* encoder = libav().avcodec_find_encoder_by_name(std::string(coding.encoder).c_str());
+  codec_.reset(libav().avcodec_alloc_context3(encoder));
   if (!codec_) throw std::bad_alloc();
   AVCodecContext& codec = *codec_;
   codec.pix_fmt = pixel_format_of(options);
-  const AVPixFmtDescriptor& format = *av_pix_fmt_desc_get(codec.pix_fmt);
+  const AVPixFmtDescriptor& format = *libav().av_pix_fmt_desc_get(codec.pix_fmt);
   codec.width = rounded_up(width, format.log2_chroma_w);
   codec.height = rounded_up(height, format.log2_chroma_h);
   codec.time_base = as_av(time_base);
@@ -158,7 +154,7 @@ VideoEncoder::VideoEncoder(const FilmWriterOptions& options, int width, int heig
   tag_colours(codec, options, (format.flags & AV_PIX_FMT_FLAG_RGB) != 0);
   set_private_options(codec, options, coding);
   require_address_space(bytes_of_encoder(options.codec, width, height));
-  const int error = avcodec_open2(&codec, encoder, nullptr);
+  const int error = libav().avcodec_open2(&codec, encoder, nullptr);
   if (error < 0) {
     refuse(fmt::format("{} cannot encode {}x{} pixels as {}: {}", coding.name, codec.width, codec.height, format.name,
                        libav_reason(error)));
@@ -184,19 +180,19 @@ void VideoEncoder::send(const Frame& frame, const PacketSink& sink) {
   coded->sample_aspect_ratio = codec_->sample_aspect_ratio;
   durations_[frame.pts] = frame.duration;
   ++sent_;
-  const int error = avcodec_send_frame(codec_.get(), coded.get());
+  const int error = libav().avcodec_send_frame(codec_.get(), coded.get());
   if (error < 0) throw Error(ErrorKind::cannot_read_write, fmt::format("encoder: {}", libav_reason(error)));
   receive(sink);
 }
 
 void VideoEncoder::drain(const PacketSink& sink) {
-  avcodec_send_frame(codec_.get(), nullptr);
+  libav().avcodec_send_frame(codec_.get(), nullptr);
   receive(sink);
 }
 
 void VideoEncoder::receive(const PacketSink& sink) {
   while (true) {
-    const int error = avcodec_receive_packet(codec_.get(), packet_.get());
+    const int error = libav().avcodec_receive_packet(codec_.get(), packet_.get());
     if (error == AVERROR(EAGAIN) || error == AVERROR_EOF) return;
     if (error < 0) throw Error(ErrorKind::cannot_read_write, fmt::format("encoder: {}", libav_reason(error)));
     // libx265 3.5 never sets the decoding times of films that are too short to be reordered
@@ -205,7 +201,7 @@ void VideoEncoder::receive(const PacketSink& sink) {
     if (codec_->codec_id == AV_CODEC_ID_HEVC && sent_ < reordered_frames) packet_->dts = packet_->pts;
     if (const auto duration = durations_.extract(packet_->pts)) packet_->duration = duration.mapped();
     sink(*packet_);
-    av_packet_unref(packet_.get());
+    libav().av_packet_unref(packet_.get());
   }
 }
 
