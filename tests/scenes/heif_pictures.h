@@ -5,6 +5,7 @@
 #include <libheif/heif.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -17,6 +18,7 @@ struct PlainPicture {
   Rgb8 colour;
   int width = 64, height = 64;
   std::string colour_profile = {};
+  std::uint16_t primaries = 0;  ///< by their number in ISO/IEC 23091-2; 0: not told
 };
 
 /// Encodes pictures into one HEIC file; false where no encoder is installed. `make(i)` makes each of `count`.
@@ -29,13 +31,16 @@ bool write_heic(const std::filesystem::path& path, std::size_t count, Make make)
     return false;
   }
   heif_encoder_set_lossy_quality(encoder, 95);
+  heif_encoding_options* options = heif_encoding_options_alloc();
+  options->macOS_compatibility_workaround_no_nclx_profile = 0;  // else numbers that tell the colours are not written
   for (std::size_t i = 0; i < count; ++i) {
     heif_image* image = make(i);
     heif_image_handle* handle = nullptr;
-    heif_context_encode_image(context, image, encoder, nullptr, &handle);
+    heif_context_encode_image(context, image, encoder, options, &handle);
     heif_image_handle_release(handle);
     heif_image_release(image);
   }
+  heif_encoding_options_free(options);
   heif_encoder_release(encoder);
   heif_context_write_to_file(context, path.c_str());
   heif_context_free(context);
@@ -63,6 +68,12 @@ inline bool put_heic(const std::filesystem::path& path, const std::vector<PlainP
         [&](int, std::uint8_t* row) { std::fill_n(reinterpret_cast<Rgb8*>(row), plain.width, plain.colour); });
     const std::string& profile = plain.colour_profile;
     if (!profile.empty()) heif_image_set_raw_color_profile(image, "prof", profile.data(), profile.size());
+    if (plain.primaries != 0) {
+      heif_color_profile_nclx* colours = heif_nclx_color_profile_alloc();
+      heif_nclx_color_profile_set_color_primaries(colours, plain.primaries);
+      heif_image_set_nclx_color_profile(image, colours);
+      heif_nclx_color_profile_free(colours);
+    }
     return image;
   });
 }

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <limits>
 #include <memory>
+#include <new>
 #include <span>
 #include <type_traits>
 #include <utility>
@@ -178,6 +179,24 @@ void bring_to_srgb(Image<Rgb8>& picture, std::string_view profile, bool grey) {
 
 void bring_to_srgb(Image<Rgb16>& picture, std::string_view profile, bool grey) {
   bring_any_to_srgb(picture, profile, grey);
+}
+
+std::string profile_with_primaries(const std::array<std::array<double, 2>, 4>& primaries) {
+  const auto as_lcms = [](const std::array<double, 2>& at) { return cmsCIExyY{at[0], at[1], 1}; };
+  const auto& [red, green, blue, white] = primaries;
+  const cmsCIExyYTRIPLE colours{as_lcms(red), as_lcms(green), as_lcms(blue)};
+  const cmsCIExyY white_point = as_lcms(white);
+  // IEC 61966-2-1.
+  constexpr std::array<double, 5> srgb_curve{2.4, 1 / 1.055, 0.055 / 1.055, 1 / 12.92, 0.04045};
+  const std::unique_ptr<cmsToneCurve, decltype(&cmsFreeToneCurve)> curve(
+      cmsBuildParametricToneCurve(nullptr, 4, srgb_curve.data()), &cmsFreeToneCurve);
+  if (!curve) throw std::bad_alloc();
+  std::array<cmsToneCurve*, 3> curves{curve.get(), curve.get(), curve.get()};
+  const Profile profile(cmsCreateRGBProfile(&white_point, &colours, curves.data()));
+  cmsUInt32Number size = 0;
+  if (!profile || cmsSaveProfileToMem(profile.get(), nullptr, &size) == 0) return {};
+  std::string bytes(size, '\0');
+  return cmsSaveProfileToMem(profile.get(), bytes.data(), &size) != 0 ? bytes : std::string();
 }
 
 bool describes_other_colours(std::string_view profile) {

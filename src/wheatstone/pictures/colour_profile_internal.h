@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <string>
 #include <string_view>
 
@@ -16,6 +17,10 @@ void bring_to_srgb(Image<Rgb16>& picture, std::string_view profile, bool grey);
 /// Whether colours of three channels that the profile describes are others than sRGB's: then bring_to_srgb changes
 /// them.
 bool describes_other_colours(std::string_view profile);
+
+/// An ICC profile of colours that are coded by sRGB's curve and have other primaries: CIE x and y of red, green, blue
+/// and white.
+std::string profile_with_primaries(const std::array<std::array<double, 2>, 4>& primaries);
 
 /// The ICC profile in the bytes of a PNG (chunk iCCP), WebP (chunk ICCP) or HEIF file, whose decoders do not hand it
 /// on; empty where there is none, or a damaged one, and for all other kinds of file.

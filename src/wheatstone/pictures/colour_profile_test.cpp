@@ -9,9 +9,11 @@
 #include <vector>
 
 #include "scenes/colour_profiles.h"
+#include "scenes/heif_pictures.h"
 #include "temporary_folder.h"
 #include "wheatstone/image/colour.h"
 #include "wheatstone/pictures/colour_profile_internal.h"
+#include "wheatstone/pictures/heif_pictures.h"
 #include "wheatstone/pictures/read_image.h"
 #include "wheatstone/pictures/write_image.h"
 
@@ -51,6 +53,18 @@ TEST(ColourProfile, IsBroughtToSrgbInEveryKindOfFile) {
     put_with_profile(folder / name, colour, display_p3());
     expect_near(read_image(folder / name)(8, 8), expected, 2);
   }
+}
+
+TEST(ColourProfile, MayBeToldByNumbersInAHeic) {
+  const TemporaryFolder folder;
+  const Rgb8 colour{200, 120, 90};
+  constexpr std::uint16_t of_srgb = 1, of_display_p3 = 12;
+  if (!put_heic(folder / "a.heic", {{.colour = colour, .primaries = of_display_p3}})) GTEST_SKIP() << "no HEVC encoder";
+  expect_near(read_image(folder / "a.heic")(8, 8), srgb_from_p3(colour), 4);
+  expect_near(read_heif_pictures(folder / "a.heic")[0].picture(8, 8), colour, 4);
+  EXPECT_TRUE(describes_other_colours(read_heif_pictures(folder / "a.heic")[0].colour_profile));
+  put_heic(folder / "b.heic", {{.colour = colour, .primaries = of_srgb}});
+  expect_near(read_image(folder / "b.heic")(8, 8), colour, 4);
 }
 
 TEST(ColourProfile, OfAWebpIsFound) {

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "wheatstone/error.h"
+#include "wheatstone/pictures/colour_profile_internal.h"
 #include "wheatstone/pictures/open_picture.h"
 
 namespace wheatstone {
@@ -39,9 +40,28 @@ Context open_context(std::string_view bytes) {
   return error.code == heif_error_Ok ? std::move(context) : nullptr;
 }
 
+/// The profile of colours that are told by numbers (ISO/IEC 23091-2): those of a wide gamut, as Display P3. Others are
+/// taken for sRGB, as other programs do; so is light that is coded for high dynamic range.
+std::string profile_of_numbers(const Handle& handle) {
+  heif_color_profile_nclx* found = nullptr;
+  if (heif_image_handle_get_nclx_color_profile(handle.get(), &found).code != heif_error_Ok) return {};
+  const std::unique_ptr<heif_color_profile_nclx, decltype(&heif_nclx_color_profile_free)> colours(
+      found, &heif_nclx_color_profile_free);
+  const bool is_wide = colours->color_primaries == heif_color_primaries_ITU_R_BT_2020_2_and_2100_0 ||
+                       colours->color_primaries == heif_color_primaries_SMPTE_RP_431_2 ||
+                       colours->color_primaries == heif_color_primaries_SMPTE_EG_432_1;
+  const bool is_bright = colours->transfer_characteristics == heif_transfer_characteristic_ITU_R_BT_2100_0_PQ ||
+                         colours->transfer_characteristics == heif_transfer_characteristic_ITU_R_BT_2100_0_HLG;
+  if (!is_wide || is_bright) return {};
+  return profile_with_primaries({{{colours->color_primary_red_x, colours->color_primary_red_y},
+                                  {colours->color_primary_green_x, colours->color_primary_green_y},
+                                  {colours->color_primary_blue_x, colours->color_primary_blue_y},
+                                  {colours->color_primary_white_x, colours->color_primary_white_y}}});
+}
+
 std::string profile_of(const Handle& handle) {
   std::string profile(heif_image_handle_get_raw_color_profile_size(handle.get()), '\0');
-  if (profile.empty()) return profile;
+  if (profile.empty()) return profile_of_numbers(handle);
   const heif_error error = heif_image_handle_get_raw_color_profile(handle.get(), profile.data());
   return error.code == heif_error_Ok ? profile : std::string();
 }
