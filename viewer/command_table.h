@@ -30,7 +30,7 @@ struct Choice {
 };
 
 /// What the number that a command takes may be, for a slider. None where `step` is 0.
-struct NumberRange {
+struct SteppedRange {
   double least = 0, most = 0, step = 0;
 };
 
@@ -38,7 +38,7 @@ struct NumberRange {
 struct Entry {
   std::vector<Choice> (*choices)(const Viewer&) = nullptr;  ///< a submenu; none: those that `arguments` lists
   std::string (*now)(const Viewer&) = nullptr;  ///< the argument that stands; of a command without, "on" or "off"
-  NumberRange range = {};
+  SteppedRange range = {};
   bool (*applies)(const Viewer&) = nullptr;  ///< grey where it does not; none: as its menu
   std::string_view icon = {};                ///< in the toolbar; empty: it is not there
   bool begins_group = false;                 ///< a line is drawn above it

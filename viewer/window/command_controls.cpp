@@ -56,7 +56,7 @@ CommandControls::CommandControls(std::string_view menu, bool with_choices, QForm
 }
 
 CommandControls::Row CommandControls::slider_of(const Command& command, QWidget* parent) {
-  const NumberRange range = command.entry.range;
+  const SteppedRange range = command.entry.range;
   auto* const both = new QWidget(parent);
   auto* const line = new QHBoxLayout(both);
   line->setContentsMargins(0, 0, 0, 0);

@@ -30,6 +30,11 @@ std::vector<Station> stations_of(const std::vector<PlanePoint>& chain) {
   return stations;
 }
 
+/// A pixel of a picture, by column and row.
+struct Pixel {
+  int x = 0, y = 0;
+};
+
 /// What lies on one side of a station.
 struct Side {
   SampledColour colour;
@@ -69,9 +74,6 @@ class SideMaker {
   }
 
  private:
-  struct Pixel {
-    int x, y;
-  };
   Pixel pixel(PlanePoint p) const {
     return {std::clamp(static_cast<int>(p.x), 0, view_.colour.width() - 1),
             std::clamp(static_cast<int>(p.y), 0, view_.colour.height() - 1)};
@@ -214,11 +216,6 @@ void add_edges(const TwoSides& line, std::uint32_t view, std::vector<CarriedEdge
                      view});
   }
 }
-
-/// A pixel of a picture, by column and row.
-struct Pixel {
-  int x = 0, y = 0;
-};
 
 /// The pixels along a picture's border, side by side.
 std::vector<std::vector<Pixel>> border_of(int width, int height) {

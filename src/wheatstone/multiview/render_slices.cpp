@@ -16,22 +16,6 @@ namespace {
 
 constexpr int band_rows = 16;
 
-/// What slices do to those behind them.
-struct Hiding {
-  bool any = false;
-  bool sharp = true;  ///< a pixel hides all or nothing
-};
-
-Hiding hiding_of(const SliceStack& stack) {
-  Hiding hiding;
-  for (const Slice& slice : stack.slices)
-    for (const LinearRgba& pixel : slice.pixels.pixels()) {
-      hiding.any = hiding.any || pixel.a > 0;
-      hiding.sharp = hiding.sharp && (pixel.a == 0 || pixel.a == 1);
-    }
-  return hiding;
-}
-
 /// Copies a slice's rows of one band to where the compositor reads them.
 void take_rows(const Slice& slice, int top, LightBand& band) {
   const int first = std::max(top, slice.top);
@@ -70,9 +54,9 @@ float largest_shift_px(const SliceStack& stack, std::span<const ViewPosition> vi
 
 /// How slices are interpolated between their pixels. Opaque edges stay sharp. Slices with alpha are not read by cubic
 /// weights, which can be negative.
-SliceFilter filter_for(const Hiding& hiding, SliceFilter filter) {
-  if (!hiding.any) return filter;
-  return hiding.sharp || filter == SliceFilter::nearest ? SliceFilter::nearest : SliceFilter::linear;
+SliceFilter filter_for(SliceHiding hiding, SliceFilter filter) {
+  if (hiding == SliceHiding::nothing) return filter;
+  return hiding == SliceHiding::sharply ? SliceFilter::nearest : std::min(filter, SliceFilter::linear);
 }
 
 /// Calls `take` with the slices of every band, and its first row, in parallel.
@@ -103,6 +87,16 @@ float checked_shift(const SliceStack& stack, std::span<const ViewPosition> views
 
 }  // namespace
 
+SliceHiding hiding_of(const SliceStack& stack) {
+  SliceHiding hiding = SliceHiding::nothing;
+  for (const Slice& slice : stack.slices)
+    for (const LinearRgba& pixel : slice.pixels.pixels()) {
+      if (pixel.a > 0 && pixel.a < 1) return SliceHiding::softly;
+      if (pixel.a > 0) hiding = SliceHiding::sharply;
+    }
+  return hiding;
+}
+
 std::vector<Image<Rgb8>> render_slices(const SliceStack& stack, const Rig& rig, SliceFilter filter,
                                        const Progress& progress, const std::optional<Focus>& focus) {
   check_views_fit(rig);
@@ -111,11 +105,11 @@ std::vector<Image<Rgb8>> render_slices(const SliceStack& stack, const Rig& rig, 
   if (stack.slices.empty() || views.empty()) return views;
   std::vector<ViewTarget> targets;
   for (Image<Rgb8>& view : views) targets.push_back({.picture = view});
-  const Hiding hiding = hiding_of(stack);
+  const SliceHiding hiding = hiding_of(stack);
   const std::vector<float> parallaxes = parallaxes_of(stack);
   const Compositing compositing{parallaxes, rig.positions, filter_for(hiding, filter), focus};
   const ToneMap tone(stack.tone);
-  for_each_slice_band(stack, shift, hiding.any,
+  for_each_slice_band(stack, shift, hiding != SliceHiding::nothing,
                       [&](const SliceBand& slices, int top) { composite(slices, compositing, tone, top, targets); });
   report(progress, "views", 1);
   return views;
@@ -127,10 +121,10 @@ InterleavedView render_interleaved(const SliceStack& stack, std::span<const View
   const float shift = checked_shift(stack, views, focus);
   InterleavedView result{.picture = Image<Rgb8>(stack.width, stack.height), .composited = 0};
   const std::vector<float> parallaxes = parallaxes_of(stack);
-  const Hiding hiding = hiding_of(stack);
+  const SliceHiding hiding = hiding_of(stack);
   const Compositing compositing{parallaxes, views, filter_for(hiding, SliceFilter::linear), focus};
   const ToneMap tone(stack.tone);
-  for_each_slice_band(stack, shift, hiding.any, [&](const SliceBand& slices, int top) {
+  for_each_slice_band(stack, shift, hiding != SliceHiding::nothing, [&](const SliceBand& slices, int top) {
     composite(slices, compositing, tone, top, {result.picture, views_of_row});
   });
   result.composited = 3 * static_cast<std::uint64_t>(stack.width) * stack.height;

@@ -32,6 +32,11 @@ struct SliceStack {
   std::vector<Slice> slices;         ///< nearest first: parallax ascends
 };
 
+/// What slices do to those behind them; sharply: a pixel hides all or nothing.
+enum class SliceHiding { nothing, sharply, softly };
+
+SliceHiding hiding_of(const SliceStack& stack);
+
 /// How depth planes are filled with splats, and read between their pixels.
 enum class SliceFilter {
   nearest,   ///< a splat goes to its nearest plane, and planes move by whole pixels

@@ -101,7 +101,7 @@ bool is_map_name(const std::string& name) {
 constexpr std::array<std::string_view, 2> depth_ends{"_depth", "-depth"};
 
 /// The pictures of one scene, by their names.
-struct Scene {
+struct NamedPictures {
   struct Picture {
     fs::path file;
     EyeName eye;
@@ -111,20 +111,20 @@ struct Scene {
   bool by_folder = false;
 };
 
-std::string names_of(const std::vector<Scene::Picture>& pictures) {
+std::string names_of(const std::vector<NamedPictures::Picture>& pictures) {
   std::string names;
-  for (const Scene::Picture& picture : pictures)
+  for (const NamedPictures::Picture& picture : pictures)
     names += (names.empty() ? "" : ", ") + picture.file.filename().string();
   return names;
 }
 
-void settle(const Scene& scene, PairsByName& found) {
-  const auto leave_out = [&found](const std::vector<Scene::Picture>& pictures, const std::string& reason) {
-    for (const Scene::Picture& picture : pictures) found.left_out.push_back({picture.file, reason, {}});
+void settle(const NamedPictures& scene, PairsByName& found) {
+  const auto leave_out = [&found](const std::vector<NamedPictures::Picture>& pictures, const std::string& reason) {
+    for (const NamedPictures::Picture& picture : pictures) found.left_out.push_back({picture.file, reason, {}});
   };
   const auto& [left, right, map_name, by_folder] = scene;
   if (left.empty() || right.empty()) {
-    for (const Scene::Picture& picture : left.empty() ? right : left) {
+    for (const NamedPictures::Picture& picture : left.empty() ? right : left) {
       if (picture.eye.sure)
         found.left_out.push_back(
             {picture.file,
@@ -227,10 +227,10 @@ PairsByName pairs_by_name(std::span<const fs::path> files) {
   for (const fs::path& file : pictures)
     if (const auto folder = eye_folder(file)) eyes_in[folder->above.generic_string()].insert(folder->eye.is_left);
 
-  std::map<std::string, Scene> scenes;
+  std::map<std::string, NamedPictures> scenes;
   for (const fs::path& file : pictures) {
     const auto put = [&](const EyeName& eye, const std::string& map_name, bool by_folder) {
-      Scene& scene = scenes[eye.scene];
+      NamedPictures& scene = scenes[eye.scene];
       (eye.is_left ? scene.left : scene.right).push_back({file, eye});
       scene.map_name = map_name;
       scene.by_folder = by_folder;

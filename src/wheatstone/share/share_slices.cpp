@@ -33,18 +33,6 @@ SliceChannels channels_of(const ToneSettings& tone) {
   }
 }
 
-enum class Hiding { nothing, sharply, softly };
-
-Hiding hiding_of(const SliceStack& stack) {
-  Hiding hiding = Hiding::nothing;
-  for (const Slice& slice : stack.slices)
-    for (const LinearRgba& pixel : slice.pixels.pixels()) {
-      if (pixel.a > 0 && pixel.a < 1) return Hiding::softly;
-      if (pixel.a > 0) hiding = Hiding::sharply;
-    }
-  return hiding;
-}
-
 /// From what is far too faint to be seen to the brightest that makes a difference.
 LightCode light_code_of(const SliceStack& stack, int steps) {
   float brightest = 0;
@@ -71,7 +59,7 @@ Json facts_of(const ToneSettings& tone) {
           {"most", tone.most}};
 }
 
-Json facts_of(const SliceStack& stack, const LightCode& code, Hiding hiding, const std::string& title) {
+Json facts_of(const SliceStack& stack, const LightCode& code, SliceHiding hiding, const std::string& title) {
   constexpr std::array<const char*, 3> hides{"nothing", "sharply", "softly"};
   const float depth_px = std::max(stack.slices.back().parallax_px - stack.slices.front().parallax_px, 1e-3f),
               budget_px = comfortable_parallax_share * static_cast<float>(stack.width);
@@ -116,14 +104,14 @@ SharedPicture share_slices(SliceStack stack, const ShareSlicesOptions& options) 
   if (stack.slices.empty()) throw Error(ErrorKind::bad_input, "the slices are empty: there is nothing to show");
   constexpr std::array all_steps{255, 127, 63};
   constexpr int smallest_px = 64;
-  const Hiding hiding = hiding_of(stack);
+  const SliceHiding hiding = hiding_of(stack);
   const int width = stack.width;
   SharedPicture shared;
   for (bool is_small_enough = false; !is_small_enough;) {
     for (const int steps : all_steps) {
       const LightCode code = light_code_of(stack, steps);
       const Rig middle{stack.width, stack.height, {central_view}};
-      shared = {.parts = parts_of(stack, code, hiding != Hiding::nothing),
+      shared = {.parts = parts_of(stack, code, hiding != SliceHiding::nothing),
                 .still_jpeg = still_of(render_slices(stack, middle).front()),
                 .width = stack.width,
                 .height = stack.height};
