@@ -161,6 +161,7 @@ SliceStack slices_of(const PicturesOnSurfaces& scene, std::optional<float> zero_
     slice.parallax_px = zero_px - planes.disparity_px(plane);
   });
   std::erase_if(stack.slices, [](const Slice& slice) { return slice.pixels.empty(); });
+  stack.hiding = hiding_of(stack);
   return stack;
 }
 

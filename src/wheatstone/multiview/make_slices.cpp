@@ -237,6 +237,7 @@ SliceStack SliceMaker::finish(const ViewingGeometry& viewing) {
   tbb::parallel_for(0, static_cast<int>(stack.slices.size()),
                     [&](int plane) { stack.slices[plane] = state.crop(plane); });
   std::erase_if(stack.slices, [](const Slice& slice) { return slice.pixels.empty(); });
+  stack.hiding = hiding_of(stack);
   state_.reset();
   return stack;
 }

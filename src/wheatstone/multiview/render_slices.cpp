@@ -88,6 +88,7 @@ float checked_shift(const SliceStack& stack, std::span<const ViewPosition> views
 }  // namespace
 
 SliceHiding hiding_of(const SliceStack& stack) {
+  if (stack.hiding) return *stack.hiding;
   SliceHiding hiding = SliceHiding::nothing;
   for (const Slice& slice : stack.slices)
     for (const LinearRgba& pixel : slice.pixels.pixels()) {

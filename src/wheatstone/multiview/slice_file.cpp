@@ -324,6 +324,7 @@ SliceStack read_stack(const fs::path& path) {
   for (Slice& slice : slices)
     if (!is_dark(slice)) stack.slices.push_back(std::move(slice));
   std::ranges::stable_sort(stack.slices, {}, &Slice::parallax_px);
+  stack.hiding = hiding_of(stack);
   return stack;
 }
 

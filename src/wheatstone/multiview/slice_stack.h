@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "wheatstone/depth/viewing_geometry.h"
@@ -23,6 +24,9 @@ struct Slice {
   Image<LinearRgba> pixels;
 };
 
+/// What slices do to those behind them; sharply: a pixel hides all or nothing.
+enum class SliceHiding { nothing, sharply, softly };
+
 /// A scene cut into depth planes: enough to make every view of every rig (Hassaine 2010, sec. 6.2).
 struct SliceStack {
   int width = 0, height = 0;         ///< of a view, in pixels
@@ -30,10 +34,9 @@ struct SliceStack {
   ToneSettings tone{.exposure = 1};  ///< how sums of the slices become colours
   ViewingGeometry viewing;           ///< for which the parallaxes were chosen
   std::vector<Slice> slices;         ///< nearest first: parallax ascends
+  /// Of all slices together, where it was found before: looking at every pixel takes a third of drawing two views.
+  std::optional<SliceHiding> hiding = {};
 };
-
-/// What slices do to those behind them; sharply: a pixel hides all or nothing.
-enum class SliceHiding { nothing, sharply, softly };
 
 SliceHiding hiding_of(const SliceStack& stack);
 
