@@ -75,7 +75,7 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
   "wheatstone (= ${PROJECT_VERSION}), libopencv-dev, liblcms2-dev, libheif-dev, \
 libwebp-dev, libpng-dev, libjpeg-dev, libtiff-dev, libexif-dev, libfreetype-dev, libfontconfig-dev, libhpdf-dev, libepoxy-dev, libtbb-dev, libhwy-dev, zlib1g-dev, libisal-dev, libhdf5-dev, libcfitsio-dev, libzip-dev, libnanoflann-dev, \
-libfftw3-dev, libavformat-dev, libavcodec-dev, libavutil-dev, libswscale-dev, libtomlplusplus-dev, libfmt-dev, \
+libfftw3-dev, libtomlplusplus-dev, libfmt-dev, \
 libboost-dev, libeigen3-dev, nlohmann-json3-dev, libflatbuffers-dev")
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION
 "The static library of Wheatstone, its headers, and what CMake's

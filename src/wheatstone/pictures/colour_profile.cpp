@@ -196,7 +196,10 @@ std::string profile_with_primaries(const std::array<std::array<double, 2>, 4>& p
   cmsUInt32Number size = 0;
   if (!profile || cmsSaveProfileToMem(profile.get(), nullptr, &size) == 0) return {};
   std::string bytes(size, '\0');
-  return cmsSaveProfileToMem(profile.get(), bytes.data(), &size) != 0 ? bytes : std::string();
+  if (cmsSaveProfileToMem(profile.get(), bytes.data(), &size) == 0) return {};
+  // ICC.1, sec. 7.2.8: when it was made. Profiles are compared, and the same picture gives the same bytes.
+  constexpr std::string_view a_date("\x07\xd0\0\x01\0\x01\0\0\0\0\0\0", 12);  // 1 January 2000
+  return bytes.replace(24, a_date.size(), a_date);
 }
 
 bool describes_other_colours(std::string_view profile) {

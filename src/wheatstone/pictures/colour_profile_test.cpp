@@ -67,6 +67,12 @@ TEST(ColourProfile, MayBeToldByNumbersInAHeic) {
   expect_near(read_image(folder / "b.heic")(8, 8), colour, 4);
 }
 
+TEST(ColourProfile, OfPrimariesSaysNothingOfTheTimeItWasMadeAt) {
+  const std::string profile = profile_with_primaries({{{0.68, 0.32}, {0.265, 0.69}, {0.15, 0.06}, {0.3127, 0.329}}});
+  EXPECT_TRUE(describes_other_colours(profile));
+  EXPECT_EQ(profile.substr(24, 12), std::string("\x07\xd0\0\x01\0\x01\0\0\0\0\0\0", 12));
+}
+
 TEST(ColourProfile, OfAWebpIsFound) {
   const TemporaryFolder folder;
   const Rgb8 colour{200, 120, 90};

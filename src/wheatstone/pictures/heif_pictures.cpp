@@ -4,6 +4,7 @@
 #include <libheif/heif.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstring>
@@ -40,8 +41,8 @@ Context open_context(std::string_view bytes) {
   return error.code == heif_error_Ok ? std::move(context) : nullptr;
 }
 
-/// The profile of colours that are told by numbers (ISO/IEC 23091-2): those of a wide gamut, as Display P3. Others are
-/// taken for sRGB, as other programs do; so is light that is coded for high dynamic range.
+/// The profile of colours that are told by numbers (ISO/IEC 23091-2): those of a wide gamut, as Display P3, that are
+/// coded by sRGB's curve, or video's, which is shown alike. Others are taken for sRGB, as other programs do.
 std::string profile_of_numbers(const Handle& handle) {
   heif_color_profile_nclx* found = nullptr;
   if (heif_image_handle_get_nclx_color_profile(handle.get(), &found).code != heif_error_Ok) return {};
@@ -50,9 +51,11 @@ std::string profile_of_numbers(const Handle& handle) {
   const bool is_wide = colours->color_primaries == heif_color_primaries_ITU_R_BT_2020_2_and_2100_0 ||
                        colours->color_primaries == heif_color_primaries_SMPTE_RP_431_2 ||
                        colours->color_primaries == heif_color_primaries_SMPTE_EG_432_1;
-  const bool is_bright = colours->transfer_characteristics == heif_transfer_characteristic_ITU_R_BT_2100_0_PQ ||
-                         colours->transfer_characteristics == heif_transfer_characteristic_ITU_R_BT_2100_0_HLG;
-  if (!is_wide || is_bright) return {};
+  constexpr std::array usual_curves{
+      heif_transfer_characteristic_ITU_R_BT_709_5,        heif_transfer_characteristic_unspecified,
+      heif_transfer_characteristic_ITU_R_BT_601_6,        heif_transfer_characteristic_IEC_61966_2_1,
+      heif_transfer_characteristic_ITU_R_BT_2020_2_10bit, heif_transfer_characteristic_ITU_R_BT_2020_2_12bit};
+  if (!is_wide || std::ranges::find(usual_curves, colours->transfer_characteristics) == usual_curves.end()) return {};
   return profile_with_primaries({{{colours->color_primary_red_x, colours->color_primary_red_y},
                                   {colours->color_primary_green_x, colours->color_primary_green_y},
                                   {colours->color_primary_blue_x, colours->color_primary_blue_y},

@@ -136,7 +136,7 @@ class OpenedViews {
   /// Calls `take(y, line, stride)` with all channels of each row, pixel after pixel.
   template <class Take>
   void read_rows(Take take) {
-    constexpr int rows_at_a_time = 64;  // OpenImageIO takes 64 MB anew for each reading, however little is read
+    constexpr int rows_at_a_time = 64;  // to convert any number of half floats, OpenImageIO takes 64 MB anew
     const auto stride = static_cast<std::size_t>(reader_->picture().channels);
     const std::size_t numbers_a_row = static_cast<std::size_t>(width()) * stride;
     std::vector<float> lines(numbers_a_row * static_cast<std::size_t>(std::min(rows_at_a_time, height())));

@@ -1,8 +1,10 @@
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
+#include <algorithm>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "wheatstone/pictures/picture_module_internal.h"
 
@@ -116,12 +118,28 @@ class Reader : public PictureReader {
     const int part = input_->current_subimage();
     const OIIO::TypeDesc type = asked(OIIO::TypeDesc::FLOAT);
     if (rows == picture_.height) return input_->read_image(part, 0, 0, channels, type, to);
+    if (input_->spec().tile_width > 0) return read_of_tiles(first_row, rows, channels, to);
     const int top = picture_.top + first_row;
     return input_->read_scanlines(part, 0, top, top + rows, 0, 0, channels, type, to);
   }
   std::string complaint() override { return input_->geterror(); }
 
  private:
+  /// Reads all tiles that the rows touch.
+  bool read_of_tiles(int first_row, int rows, int channels, float* to) {
+    const OIIO::ImageSpec& spec = input_->spec();
+    const int tile = spec.tile_height;
+    const int begin = first_row / tile * tile, end = std::min((first_row + rows + tile - 1) / tile * tile, spec.height);
+    const std::size_t numbers_a_row = static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(channels);
+    std::vector<float> read(numbers_a_row * static_cast<std::size_t>(end - begin));
+    if (!input_->read_tiles(input_->current_subimage(), 0, spec.x, spec.x + spec.width, spec.y + begin, spec.y + end,
+                            spec.z, spec.z + 1, 0, channels, OIIO::TypeDesc::FLOAT, read.data()))
+      return false;
+    std::copy_n(read.data() + numbers_a_row * static_cast<std::size_t>(first_row - begin),
+                numbers_a_row * static_cast<std::size_t>(rows), to);
+    return true;
+  }
+
   /// OpenImageIO 2.4 converts by way of 64 MB, even from a type to itself; UNKNOWN asks for the type that is stored.
   OIIO::TypeDesc asked(OIIO::TypeDesc type) const {
     const OIIO::ImageSpec& spec = input_->spec();
