@@ -13,6 +13,7 @@
 #include "wheatstone/files/module.h"
 #include "wheatstone/files/whole_file.h"
 #include "wheatstone/image/image.h"
+#include "wheatstone/pictures/bilevel_tiff_internal.h"
 #include "wheatstone/pictures/colour_profile_internal.h"
 #include "wheatstone/pictures/jpeg.h"
 #include "wheatstone/pictures/open_picture.h"
@@ -121,6 +122,9 @@ OpenPicture open_picture(const fs::path& path) {
     open.reader = opened_file(path);
   }
   check_opened(path, open);
+  if (open.reader->format() == "tiff")
+    if (std::unique_ptr<PictureReader> bilevel = bilevel_tiff_reader(path, open.reader->picture()))
+      open.reader = std::move(bilevel);
   return open;
 }
 

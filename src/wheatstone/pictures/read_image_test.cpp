@@ -3,8 +3,10 @@
 #include <OpenImageIO/imageio.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <cstdlib>
+#include <string_view>
 
 #include "temporary_folder.h"
 #include "throws_error.h"
@@ -158,15 +160,38 @@ TEST(ReadImage, TurnsAPhotographUpright) {
   }
 }
 
+/// A field of a TIFF, little-endian.
+std::string entry(int tag, int type, int count, int value) {
+  std::string bytes;
+  for (const auto& [number, length] : {std::pair{tag, 2}, {type, 2}, {count, 4}, {value, 4}}) {
+    for (int i = 0; i < length; ++i) bytes += static_cast<char>(number >> (8 * i));
+  }
+  return bytes;
+}
+
+TEST(ReadImage, OfATiffThatDoesNotTellItsBitsHasOneBit) {
+  // One strip of two rows of ten pixels: black is 0, and the bits begin with the highest.
+  const std::string head("II\x2a\0\x0c\0\0\0\xa5\x40\x0f\x80", 12);
+  const std::string tiff = head + std::string("\x07\0", 2) + entry(256, 3, 1, 10) + entry(257, 3, 1, 2) +
+                           entry(259, 3, 1, 1) + entry(262, 3, 1, 1) + entry(273, 4, 1, 8) + entry(278, 3, 1, 2) +
+                           entry(279, 4, 1, 4) + std::string(4, '\0');
+  const TemporaryFolder folder;
+  put_bytes(folder / "a.tif", tiff);
+  const Image<Rgb8> picture = read_image(folder / "a.tif");
+  ASSERT_EQ(picture.width(), 10);
+  ASSERT_EQ(picture.height(), 2);
+  constexpr std::array<std::string_view, 2> expected{"#.#..#.#.#", "....#####."};
+  for (int y = 0; y < 2; ++y)
+    for (int x = 0; x < 10; ++x) {
+      const std::uint8_t level = expected[static_cast<std::size_t>(y)][static_cast<std::size_t>(x)] == '#' ? 255 : 0;
+      EXPECT_EQ(picture(x, y), (Rgb8{level, level, level})) << x << ' ' << y;
+    }
+  put_bytes(folder / "short.tif", tiff.substr(0, tiff.size() - 40));
+  expect_error(ErrorKind::bad_input, "short.tif", [&] { read_image(folder / "short.tif"); });
+}
+
 TEST(ReadImage, ConvertsACmykTiff) {
   // Little-endian; one strip of one pixel: cyan 0, magenta 204, yellow 229, black 55.
-  const auto entry = [](int tag, int type, int count, int value) {
-    std::string bytes;
-    for (const auto& [number, length] : {std::pair{tag, 2}, {type, 2}, {count, 4}, {value, 4}}) {
-      for (int i = 0; i < length; ++i) bytes += static_cast<char>(number >> (8 * i));
-    }
-    return bytes;
-  };
   const std::string head(
       "II\x2a\0\x14\0\0\0"
       "\0\xcc\xe5\x37"
