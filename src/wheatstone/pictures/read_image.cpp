@@ -182,7 +182,7 @@ PictureInProfile decode_jpeg_in_profile(std::string_view bytes, const fs::path& 
 
 std::string bring_to_one_profile(std::span<PictureInProfile> pictures, bool keep_shared) {
   constexpr std::size_t most_bytes = 8 << 20;  // JPEG takes twice as many
-  const std::string shared = keep_shared && !pictures.empty() ? pictures.front().colour_profile : std::string();
+  std::string shared = keep_shared && !pictures.empty() ? pictures.front().colour_profile : std::string();
   const bool is_shared =
       std::ranges::all_of(pictures, [&](const PictureInProfile& picture) { return picture.colour_profile == shared; });
   if (is_shared && shared.size() <= most_bytes && describes_other_colours(shared)) return shared;
