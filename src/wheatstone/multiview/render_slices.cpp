@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <functional>
 
 #include "wheatstone/depth/disparity_mapping.h"
 #include "wheatstone/multiview/renderers_internal.h"
@@ -59,14 +58,28 @@ SliceFilter filter_for(SliceHiding hiding, SliceFilter filter) {
   return hiding == SliceHiding::sharply ? SliceFilter::nearest : std::min(filter, SliceFilter::linear);
 }
 
-/// Calls `take` with the slices of every band, and its first row, in parallel.
-void for_each_slice_band(const SliceStack& stack, float largest_shift, bool hides,
-                         const std::function<void(const SliceBand& slices, int top)>& take) {
-  const int around = static_cast<int>(std::ceil(largest_shift)) + 2;
+/// How far the views move the slices, the focus among them. Throws Error{wrong_usage} where it would fold a view.
+float checked_shift(const SliceStack& stack, std::span<const ViewPosition> views, const std::optional<Focus>& focus) {
+  const float largest = largest_shift_px(stack, views);
+  if (focus) check_focus(*focus, largest);
+  return focus ? largest * focus->largest_gain() : largest;
+}
+
+/// Calls `composite_band(slices, compositing, tone, top)` for every band of views of a stack, in parallel. Throws
+/// Error{wrong_usage} where the focus would fold a view.
+template <class CompositeBand>
+void composite_stack(const SliceStack& stack, std::span<const ViewPosition> views, SliceFilter filter,
+                     const std::optional<Focus>& focus, CompositeBand composite_band) {
+  const int around = static_cast<int>(std::ceil(checked_shift(stack, views, focus))) + 2;
+  if (stack.slices.empty() || views.empty()) return;  // all is black
   const int planes = static_cast<int>(stack.slices.size());
+  const SliceHiding hiding = hiding_of(stack);
+  const std::vector<float> parallaxes = parallaxes_of(stack);
+  const Compositing compositing{parallaxes, views, filter_for(hiding, filter), focus};
+  const ToneMap tone(stack.tone);
   tbb::enumerable_thread_specific<RenderedBand> workplaces([&] {
     return RenderedBand{LightBand(-around, stack.width + around, band_rows, LightBand::most_channels),
-                        SliceBand(-around, stack.width + around, band_rows, planes, hides)};
+                        SliceBand(-around, stack.width + around, band_rows, planes, hiding != SliceHiding::nothing)};
   });
   tbb::parallel_for(0, (stack.height + band_rows - 1) / band_rows, [&](int b) {
     RenderedBand& work = workplaces.local();
@@ -74,15 +87,8 @@ void for_each_slice_band(const SliceStack& stack, float largest_shift, bool hide
       take_rows(stack.slices[plane], b * band_rows, work.plane);
       work.slices.take(plane, work.plane);
     }
-    take(work.slices, b * band_rows);
+    composite_band(work.slices, compositing, tone, b * band_rows);
   });
-}
-
-/// How far the views move the slices, the focus among them. Throws Error{wrong_usage} where it would fold a view.
-float checked_shift(const SliceStack& stack, std::span<const ViewPosition> views, const std::optional<Focus>& focus) {
-  const float largest = largest_shift_px(stack, views);
-  if (focus) check_focus(*focus, largest);
-  return focus ? largest * focus->largest_gain() : largest;
 }
 
 }  // namespace
@@ -101,17 +107,13 @@ SliceHiding hiding_of(const SliceStack& stack) {
 std::vector<Image<Rgb8>> render_slices(const SliceStack& stack, const Rig& rig, SliceFilter filter,
                                        const Progress& progress, const std::optional<Focus>& focus) {
   check_views_fit(rig);
-  const float shift = checked_shift(stack, rig.positions, focus);
   std::vector<Image<Rgb8>> views(rig.positions.size(), Image<Rgb8>(rig.width, rig.height));
-  if (stack.slices.empty() || views.empty()) return views;
   std::vector<ViewTarget> targets;
   for (Image<Rgb8>& view : views) targets.push_back({.picture = view});
-  const SliceHiding hiding = hiding_of(stack);
-  const std::vector<float> parallaxes = parallaxes_of(stack);
-  const Compositing compositing{parallaxes, rig.positions, filter_for(hiding, filter), focus};
-  const ToneMap tone(stack.tone);
-  for_each_slice_band(stack, shift, hiding != SliceHiding::nothing,
-                      [&](const SliceBand& slices, int top) { composite(slices, compositing, tone, top, targets); });
+  composite_stack(stack, rig.positions, filter, focus,
+                  [&](const SliceBand& slices, const Compositing& compositing, const ToneMap& tone, int top) {
+                    composite(slices, compositing, tone, top, targets);
+                  });
   report(progress, "views", 1);
   return views;
 }
@@ -119,15 +121,11 @@ std::vector<Image<Rgb8>> render_slices(const SliceStack& stack, const Rig& rig, 
 InterleavedView render_interleaved(const SliceStack& stack, std::span<const ViewPosition> views,
                                    const ViewsOfRow& views_of_row, const Progress& progress,
                                    const std::optional<Focus>& focus) {
-  const float shift = checked_shift(stack, views, focus);
   InterleavedView result{.picture = Image<Rgb8>(stack.width, stack.height), .composited = 0};
-  const std::vector<float> parallaxes = parallaxes_of(stack);
-  const SliceHiding hiding = hiding_of(stack);
-  const Compositing compositing{parallaxes, views, filter_for(hiding, SliceFilter::linear), focus};
-  const ToneMap tone(stack.tone);
-  for_each_slice_band(stack, shift, hiding != SliceHiding::nothing, [&](const SliceBand& slices, int top) {
-    composite(slices, compositing, tone, top, {result.picture, views_of_row});
-  });
+  composite_stack(stack, views, SliceFilter::linear, focus,
+                  [&](const SliceBand& slices, const Compositing& compositing, const ToneMap& tone, int top) {
+                    composite(slices, compositing, tone, top, {result.picture, views_of_row});
+                  });
   result.composited = 3 * static_cast<std::uint64_t>(stack.width) * stack.height;
   report(progress, "views", 1);
   return result;

@@ -43,9 +43,10 @@ class BilevelTiff : public PictureReader {
 }  // namespace
 
 std::unique_ptr<PictureReader> bilevel_tiff_reader(const std::filesystem::path& path, StoredPicture picture) {
+  if (picture.channels != 1 || picture.kind != bytes_kind) return nullptr;
   const std::unique_ptr<TIFF, decltype(&TIFFClose)> tiff(TIFFOpen(path.c_str(), "r"), TIFFClose);
   std::uint16_t bits = 0;
-  if (!tiff || picture.channels != 1 || TIFFGetField(tiff.get(), TIFFTAG_BITSPERSAMPLE, &bits) != 0) return nullptr;
+  if (!tiff || TIFFGetField(tiff.get(), TIFFTAG_BITSPERSAMPLE, &bits) != 0) return nullptr;
   // As it is stored: who reads the picture turns it.
   std::uint16_t orientation = ORIENTATION_TOPLEFT;
   TIFFGetField(tiff.get(), TIFFTAG_ORIENTATION, &orientation);
